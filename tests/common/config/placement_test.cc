@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/config/run_config.h"
+#include "tests/common/config/config_testing.h"
+
+namespace nbs {
+namespace {
+
+const Eigen::AlignedBox3d kBox_W(Eigen::Vector3d(-0.101, -0.2, 0.003), Eigen::Vector3d(0.1, 0.202, 0.5));
+
+RunConfig Resolve(const CellConfig& cell) {
+  RunConfig config;
+  config.cell = cell;
+  ResolvePlacement(kBox_W, config);
+  return config;
+}
+
+TEST(Placement, GridHoldsTheBoxAndItsMarginAndNoVoxelMore) {
+  const GridShape grid = Resolve({}).grid;
+  const Eigen::Vector3d top_W = grid.origin_W + grid.resolution_m * grid.size.cast<double>();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double below = kBox_W.min()[axis] - 0.05 - grid.origin_W[axis];
+    const double above = top_W[axis] - (kBox_W.max()[axis] + 0.05);
+    EXPECT_GE(below, -1e-8);
+    EXPECT_LT(below, 0.005);
+    EXPECT_GE(above, -1e-8);
+    EXPECT_LT(above, 0.005);
+  }
+}
+
+TEST(Placement, GridOriginIsAMultipleOfTheResolution) {
+  const GridShape grid = Resolve({}).grid;
+  for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(grid.origin_W[axis], std::round(grid.origin_W[axis] / 0.005) * 0.005);
+}
+
+TEST(Placement, BoxThatEndsOnAVoxelGetsNoFurtherLayer) {
+  RunConfig config;
+  ResolvePlacement({Eigen::Vector3d(-0.1, -0.1, -0.1), Eigen::Vector3d(0.1, 0.1, 0.1)}, config);
+  EXPECT_EQ(config.grid.size, Eigen::Vector3i(60, 60, 60));
+}
+
+TEST(Placement, FirstPathStandsItsDistanceBeforeTheFaceAndLooksAtTheMiddle) {
+  const RunConfig config = Resolve({});
+  const Eigen::Vector3d half = 0.5 * config.grid.resolution_m * config.grid.size.cast<double>();
+  const Eigen::Vector3d middle_W = config.grid.origin_W + half;
+  const Pose X_WS = Interpolate(config.first_path.X_WS_start, config.first_path.X_WS_end, 0.5);
+  EXPECT_NEAR(X_WS.translation().y(), config.grid.origin_W.y() - 0.2, 1e-12);
+  EXPECT_TRUE((X_WS.linear().col(2)).isApprox((middle_W - X_WS.translation()).normalized(), 1e-9));
+}
+
+TEST(Placement, FirstPathRunsOverTheWholeExtent) {
+  const RunConfig config = Resolve({});
+  EXPECT_NEAR(config.first_path.X_WS_start.translation().z(), config.grid.origin_W.z(), 1e-12);
+  EXPECT_NEAR(config.first_path.length_m(), config.grid.resolution_m * config.grid.size.z(), 1e-12);
+}
+
+TEST(Placement, ScanDirectionIsTheSensorsYAxis) {
+  CellConfig cell;
+  cell.first_view_W = {-3, 0, -1};
+  cell.first_along_W = {0, 2, 0};
+  const ScanPath path = Resolve(cell).first_path;
+  const Eigen::Vector3d along_W = (path.X_WS_end.translation() - path.X_WS_start.translation()).normalized();
+  EXPECT_TRUE(along_W.isApprox(Eigen::Vector3d::UnitY(), 1e-12));
+  EXPECT_TRUE(path.X_WS_start.linear().col(1).isApprox(along_W, 1e-12));
+  EXPECT_TRUE(path.X_WS_start.linear().isApprox(path.X_WS_end.linear(), 1e-12));
+}
+
+TEST(Placement, ObjectInMillimetresIsRefused) {
+  RunConfig config;
+  const std::string error = CatchConfigError([&] {
+    ResolvePlacement({Eigen::Vector3d::Zero(), Eigen::Vector3d(200, 300, 500)}, config);
+  });
+  EXPECT_NE(error.find("is the object's unit metres"), std::string::npos) << error;
+}
+
+TEST(Placement, EmptyBoxIsRefused) {
+  RunConfig config;
+  EXPECT_EQ(CatchConfigError([&] { ResolvePlacement(Eigen::AlignedBox3d(), config); }),
+            "the object's bounding box is empty or not finite");
+}
+
+}  // namespace
+}  // namespace nbs
