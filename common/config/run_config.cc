@@ -50,6 +50,12 @@ ScanPath ReadPath(const StrictReader& run) {
   return path;
 }
 
+std::string FormatSize(const Eigen::Vector3i& size) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) text.append(i == 0 ? "[" : ", ").append(std::to_string(size[i]));
+  return text.append("]");
+}
+
 std::string FormatRun(const RunConfig& config) {
   std::string text = "# One run with everything resolved. Written at its start; every service reads it.\n";
   const auto add = [&](const std::string& key, const std::string& value) {
@@ -69,9 +75,7 @@ std::string FormatRun(const RunConfig& config) {
   text += "grid:\n";
   add("  origin_m", FormatVector(config.grid.origin_W));
   add("  resolution_m", FormatNumber(config.grid.resolution_m));
-  const Eigen::Vector3i& size = config.grid.size;
-  add("  size",
-      "[" + std::to_string(size.x()) + ", " + std::to_string(size.y()) + ", " + std::to_string(size.z()) + "]");
+  add("  size", FormatSize(config.grid.size));
   text += "first_path:\n";
   add("  start_X_WS", FormatPose(config.first_path.X_WS_start));
   add("  end_X_WS", FormatPose(config.first_path.X_WS_end));
