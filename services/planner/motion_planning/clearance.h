@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+
+namespace nbs {
+
+/// How far a point is from what a body must not touch.
+///
+/// Both distances are in metres, 0 inside, and lower bounds: the true distance is never smaller. They may be truncated
+/// above. The second counts unknown space as solid too, so it is never larger than the first.
+class Clearance {
+ public:
+  virtual ~Clearance() = default;
+  /// To the nearest occupied cell.
+  virtual double CalcObstacleDistance(const Eigen::Vector3d& p_W) const = 0;
+  /// To the nearest cell that is occupied or unknown.
+  virtual double CalcUnknownDistance(const Eigen::Vector3d& p_W) const = 0;
+};
+
+/// Another clearance with unknown space taken as free. Keeps a reference to it.
+class ObstaclesOnly final : public Clearance {
+ public:
+  explicit ObstaclesOnly(const Clearance& inner) : inner_(inner) {}
+  double CalcObstacleDistance(const Eigen::Vector3d& p_W) const override { return inner_.CalcObstacleDistance(p_W); }
+  double CalcUnknownDistance(const Eigen::Vector3d& p_W) const override { return inner_.CalcObstacleDistance(p_W); }
+
+ private:
+  const Clearance& inner_;
+};
+
+/// Another clearance over a table: everything below the height `table_z_m` (metres in W) is occupied. Keeps a reference
+/// to the other.
+class AboveTable final : public Clearance {
+ public:
+  AboveTable(const Clearance& inner, double table_z_m) : inner_(inner), table_z_m_(table_z_m) {}
+  double CalcObstacleDistance(const Eigen::Vector3d& p_W) const override {
+    return std::min(inner_.CalcObstacleDistance(p_W), CalcTableDistance(p_W));
+  }
+  double CalcUnknownDistance(const Eigen::Vector3d& p_W) const override {
+    return std::min(inner_.CalcUnknownDistance(p_W), CalcTableDistance(p_W));
+  }
+
+ private:
+  double CalcTableDistance(const Eigen::Vector3d& p_W) const { return std::max(0.0, p_W.z() - table_z_m_); }
+
+  const Clearance& inner_;
+  double table_z_m_;
+};
+
+}  // namespace nbs

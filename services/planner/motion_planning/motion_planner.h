@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "common/config/run_config.h"
+#include "services/planner/motion_planning/motion_backend.h"
+#include "services/planner/motion_planning/motion_settings.h"
+
+namespace nbs {
+
+/// Decides whether a scan path can be driven and plans the motion for it (section III-E): approach and scan, with
+/// times.
+///
+/// - A path that touches something occupied is blocked for good, one that touches unknown space for now; if a part of
+/// it is free, that part stands for it.
+/// - Every state of a trajectory keeps the cell's margin to anything occupied or unknown, less half a millimetre. Only
+/// a robot that already stands nearer
+///   begins with a short motion away.
+/// - The same request gives the same trajectory, bit for bit; what was planned before does not matter.
+class MotionPlanner {
+ public:
+  using Result = MotionResult;
+
+  /// Chooses the backend after config.cell.robot.
+  ///
+  /// @throws std::invalid_argument if the robot has no backend, or the cell's speeds or body are out of range.
+  explicit MotionPlanner(const RunConfig& config, const MotionSettings& settings = {});
+  ~MotionPlanner();
+  MotionPlanner(MotionPlanner&&) noexcept;
+  MotionPlanner& operator=(MotionPlanner&&) noexcept;
+
+  /// Whether the scan path itself can be driven; much cheaper than Plan, and independent of where the robot is.
+  ///
+  /// @throws std::invalid_argument if a pose is not rigid.
+  [[nodiscard]] PathCheck CheckPath(const Clearance& clearance, const ScanPath& path) const;
+
+  /// Plans from the current pose to the scan path and along it.
+  ///
+  /// The path may be driven from either end, and with the sensor rolled by half a turn, which scans the same;
+  /// Result::path says how.
+  ///
+  /// @param seed  Of the search, where one is needed.
+  /// @throws std::invalid_argument if a pose is not rigid.
+  [[nodiscard]] Result Plan(const Clearance& clearance, const Pose& X_WS_now, const ScanPath& path,
+                            uint64_t seed) const;
+
+ private:
+  std::unique_ptr<const MotionBackend> backend_;
+};
+
+}  // namespace nbs
