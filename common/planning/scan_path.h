@@ -101,6 +101,9 @@ struct PlanRequest {
   PlanMode mode = PlanMode::kFirst;
 };
 
+/// Part of Plan::reason when no candidate is left at all.
+inline constexpr std::string_view kStackIsEmpty = "the stack is empty";
+
 /// The planner's answer. All candidates, with verdicts, come before it on their own stream.
 struct Plan {
   int64_t utime_us = 0;
