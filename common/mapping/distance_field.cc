@@ -1,0 +1,150 @@
+#include "common/mapping/distance_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace nbs {
+namespace {
+
+/// Above every square within reach, and far enough below 65,536 that a square may be added to it.
+constexpr uint16_t kFar = 30000;
+constexpr int kMaxReach = 61;
+
+/// A box of squares, x fastest.
+struct Field {
+  Eigen::Vector3i size;
+  std::vector<uint16_t> squares;
+
+  explicit Field(const Eigen::Vector3i& s) : size(s), squares(static_cast<size_t>(s.x()) * s.y() * s.z(), kFar) {}
+  uint16_t* Row(int y, int z) { return squares.data() + (static_cast<size_t>(z) * size.y() + y) * size.x(); }
+  const uint16_t* Row(int y, int z) const { return const_cast<Field*>(this)->Row(y, z); }
+};
+
+/// Square of twice the distance from a block's centre to the surface of the block k further on, in block edges.
+uint16_t CalcSquare(int k) {
+  const int twice = std::max(2 * std::abs(k) - 1, 0);
+  return static_cast<uint16_t>(twice * twice);
+}
+
+struct ObstacleRule {
+  bool unknown = false;
+  int16_t free_log_odds = 0;
+
+  bool operator()(int16_t log_odds) const {
+    return unknown ? log_odds > free_log_odds || log_odds == kUnobserved : IsOccupied(log_odds);
+  }
+};
+
+/// Marks the blocks of one row that hold an obstacle; true if any does.
+bool MarkObstacles(const VoxelGrid& grid, const ObstacleRule& rule, int block, int by, int bz, std::vector<uint8_t>& marks) {
+  const Eigen::Vector3i& size = grid.shape().size;
+  std::fill(marks.begin(), marks.end(), uint8_t{0});
+  bool any = false;
+  for (int z = bz * block; z < std::min(size.z(), (bz + 1) * block); ++z) {
+    for (int y = by * block; y < std::min(size.y(), (by + 1) * block); ++y) {
+      const int16_t* cells = grid.cells().data() + grid.shape().Index(0, y, z);
+      for (int bx = 0, x = 0; x < size.x(); ++bx) {
+        uint8_t mark = 0;
+        for (const int end = std::min(size.x(), x + block); x < end; ++x) mark |= rule(cells[x]) ? 1 : 0;
+        marks[bx] |= mark;
+        any |= mark != 0;
+      }
+    }
+  }
+  return any;
+}
+
+/// Writes the squares of the distances along x to the nearest mark into a row with `reach` more blocks at each end.
+void TransformRow(const std::vector<uint8_t>& marks, int reach, uint16_t* row) {
+  const int blocks = static_cast<int>(marks.size());
+  const int width = blocks + 2 * reach;
+  std::vector<int> steps(width, reach + 1);
+  for (int x = 0; x < width; ++x) {
+    const bool marked = x >= reach && x < reach + blocks && marks[x - reach] != 0;
+    steps[x] = marked ? 0 : (x == 0 ? reach + 1 : std::min(steps[x - 1] + 1, reach + 1));
+  }
+  for (int x = width - 2; x >= 0; --x) steps[x] = std::min(steps[x], steps[x + 1] + 1);
+  for (int x = 0; x < width; ++x) row[x] = steps[x] > reach ? kFar : CalcSquare(steps[x]);
+}
+
+/// to[x] = min(to[x], from[x] + square).
+void Lower(const uint16_t* from, uint16_t square, int width, uint16_t* to) {
+  for (int x = 0; x < width; ++x) to[x] = std::min<uint16_t>(to[x], static_cast<uint16_t>(from[x] + square));
+}
+
+bool IsFar(const uint16_t* row, int width) { return std::all_of(row, row + width, [](uint16_t square) { return square >= kFar; }); }
+
+/// Distances along x: a field padded in x.
+Field TransformX(const VoxelGrid& grid, const ObstacleRule& rule, int block, const Eigen::Vector3i& blocks, int reach) {
+  Field field({blocks.x() + 2 * reach, blocks.y(), blocks.z()});
+  std::vector<uint8_t> marks(blocks.x());
+  for (int z = 0; z < blocks.z(); ++z) {
+    for (int y = 0; y < blocks.y(); ++y) {
+      if (MarkObstacles(grid, rule, block, y, z, marks)) TransformRow(marks, reach, field.Row(y, z));
+    }
+  }
+  return field;
+}
+
+/// Adds the distances along y and pads there.
+Field TransformY(const Field& in, int reach) {
+  Field out({in.size.x(), in.size.y() + 2 * reach, in.size.z()});
+  for (int z = 0; z < in.size.z(); ++z) {
+    for (int y = 0; y < in.size.y(); ++y) {
+      if (IsFar(in.Row(y, z), in.size.x())) continue;
+      for (int k = -reach; k <= reach; ++k) Lower(in.Row(y, z), CalcSquare(k), in.size.x(), out.Row(y + reach + k, z));
+    }
+  }
+  return out;
+}
+
+/// Adds the distances along z and pads there.
+Field TransformZ(const Field& in, int reach) {
+  Field out({in.size.x(), in.size.y(), in.size.z() + 2 * reach});
+  for (int y = 0; y < in.size.y(); ++y) {
+    for (int z = 0; z < in.size.z(); ++z) {
+      if (IsFar(in.Row(y, z), in.size.x())) continue;
+      for (int k = -reach; k <= reach; ++k) Lower(in.Row(y, z), CalcSquare(k), in.size.x(), out.Row(y, z + reach + k));
+    }
+  }
+  return out;
+}
+
+void CheckSettings(const DistanceFieldSettings& settings, double resolution_m) {
+  const bool good = settings.cells_per_block >= 1 && settings.cells_per_block <= 16 && settings.max_distance_m > 0.0 &&
+                    settings.max_distance_m <= 60.0 * settings.cells_per_block * resolution_m && settings.free_max_probability > 0.0 &&
+                    settings.free_max_probability < 0.95;
+  if (good) return;
+  throw std::invalid_argument("DistanceField: " + std::to_string(settings.cells_per_block) + " cells per block up to " +
+                              std::to_string(settings.max_distance_m) + " m, free up to p = " + std::to_string(settings.free_max_probability));
+}
+
+}  // namespace
+
+DistanceField::DistanceField(const VoxelGrid& grid, Obstacles obstacles, const DistanceFieldSettings& settings)
+    : max_distance_m_(settings.max_distance_m) {
+  CheckSettings(settings, grid.shape().resolution_m);
+  const int block = settings.cells_per_block;
+  block_m_ = block * grid.shape().resolution_m;
+  // One block more than the cut-off, so that a block out of reach is at least that far away from every point of this one.
+  const int reach = std::min(static_cast<int>(std::ceil(max_distance_m_ / block_m_ - 1e-9)) + 1, kMaxReach);
+  const Eigen::Vector3i blocks = (grid.shape().size.array() + (block - 1)) / block;
+  origin_W_ = grid.shape().origin_W.array() - reach * block_m_;
+  size_ = blocks.array() + 2 * reach;
+  const ObstacleRule rule{obstacles == Obstacles::kOccupiedOrUnknown, CalcLogOdds(settings.free_max_probability)};
+  squares_ = TransformZ(TransformY(TransformX(grid, rule, block, blocks, reach), reach), reach).squares;
+}
+
+double DistanceField::CalcDistance(const Eigen::Vector3d& p_W) const {
+  const Eigen::Array3d at = (p_W - origin_W_).array() / block_m_;
+  const Eigen::Array3d block = at.floor();
+  if (!((block >= 0.0).all() && (block < size_.cast<double>().array()).all())) return max_distance_m_;
+  const size_t index = (static_cast<size_t>(block.z()) * size_.y() + static_cast<size_t>(block.y())) * size_.x() + static_cast<size_t>(block.x());
+  if (squares_[index] >= kFar) return max_distance_m_;
+  const double to_center = (at - block - 0.5).matrix().norm();
+  return std::clamp((0.5 * std::sqrt(squares_[index]) - to_center) * block_m_, 0.0, max_distance_m_);
+}
+
+}  // namespace nbs

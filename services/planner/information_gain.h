@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/mapping/voxel_grid.h"
+#include "common/planning/scan_path.h"
+#include "common/sensing/profiler.h"
+
+namespace nbs {
+
+/// Which beams of a scan path are evaluated: every `stripe_step`-th stripe and every `beam_step`-th beam, from the middle of the first group; the sum is scaled to all
+/// beams.
+struct GainSampling {
+  int stripe_step = 1;
+  int beam_step = 1;
+};
+
+/// All beams: for the final choice.
+inline constexpr GainSampling kAllBeams = {1, 1};
+/// A sixteenth of the beams: for ranking.
+inline constexpr GainSampling kSixteenth = {4, 4};
+
+/// The information gain of scan paths (section III-D, eq. 2): the sum over all beams of a path, and over the cells along each beam from the emitter to the largest depth,
+/// of the cell's entropy (eq. 1). A beam ends before the first occupied cell; what is outside the grid is known to be free and adds nothing.
+///
+/// Gains are integers in 1/65536 nat (kEntropyPerNat): the result depends neither on the order of the beams nor on threads.
+class InformationGain {
+ public:
+  explicit InformationGain(const Profiler& profiler);
+
+  /// Stripes that the profiler takes along a path: one every scan_speed / rate metres from the start on, at least one.
+  int CountStripes(const ScanPath& path) const;
+
+  /// Gain of a path.
+  ///
+  /// @throws std::invalid_argument if a step of the sampling is not positive.
+  int64_t Calc(const VoxelGrid& grid, const ScanPath& path, GainSampling sampling) const;
+
+  /// The same of each path, evaluated by `threads` threads (>= 1); equal to Calc one by one.
+  std::vector<int64_t> CalcAll(const VoxelGrid& grid, std::span<const ScanPath> paths, GainSampling sampling, int threads) const;
+
+  /// Gain per stripe along the path, CountStripes entries, every `beam_step`-th beam scaled to all. With beam_step 1 their sum is Calc(grid, path, kAllBeams).
+  std::vector<int64_t> CalcPerStripe(const VoxelGrid& grid, const ScanPath& path, int beam_step) const;
+
+ private:
+  int64_t CalcStripe(const VoxelGrid& grid, const Pose& X_WS, int beam_step) const;
+
+  double stripe_spacing_m_ = 0.0;
+  double max_depth_m_ = 0.0;
+  std::vector<Eigen::Vector3d> beams_S_;  ///< From the emitter to the largest depth, metres.
+};
+
+/// Sensor pose of stripe `i` of a path: `i` stripe spacings behind its start.
+Pose CalcStripePose(const ScanPath& path, double stripe_spacing_m, int i);
+
+/// A gain in nats.
+inline double ToNats(int64_t gain) { return static_cast<double>(gain) / kEntropyPerNat; }
+
+}  // namespace nbs

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/mapping/ray_walk.h"
+#include "common/mapping/voxel_grid.h"
+#include "common/sensing/profiler.h"
+#include "services/voxelmap/inverse_sensor_model.h"
+
+namespace nbs {
+
+/// The probabilistic voxel space and Bayes' update of it, stripe by stripe (section III-C): l <- l + log(p(z|occupied) / p(z|free)), clamped.
+///
+/// One stripe is one observation of each cell that it touches: a hit if any return lies in the cell, else a pass if any clear line crosses it. So neither the order of
+/// the beams nor their number in a cell matters, and a hit wins over the passes of the same stripe.
+///
+/// Oblique beams cross cells of a surface without meeting it. So that they don't eat it, an occupied cell takes passes more slowly: none in a scan that hit it,
+/// else one per scan. A single hit makes any cell occupied; two scans that pass through it and never hit it clear it again.
+class MapUpdate {
+ public:
+  /// @throws ConfigError for bad settings (MakeLogOddsSteps) or a bad shape (VoxelGrid).
+  MapUpdate(const GridShape& shape, const Profiler& profiler, const InverseSensorModelSettings& settings = {});
+
+  /// Folds a stripe in. Cells outside the grid are left alone.
+  ///
+  /// @pre  The stripe's ranges are finite, as many as the profiler has beams or none, and its pose is rigid.
+  void Insert(const Stripe& stripe);
+
+  const VoxelGrid& grid() const { return grid_; }
+
+  /// What changed since the last call.
+  VoxelDelta TakeDelta() { return changes_.TakeDelta(grid_); }
+
+ private:
+  void BeginStripe();
+  void ApplyHit(int64_t index, uint16_t scan);
+  void ApplyPass(int64_t index, uint16_t scan);
+  void Change(int64_t index, int log_odds);
+
+  Profiler profiler_;
+  InverseSensorModelSettings settings_;
+  LogOddsSteps steps_;
+  std::vector<Eigen::Vector3d> directions_S_;
+  VoxelGrid grid_;
+  ChangeTracker changes_;
+  uint16_t stripe_stamp_ = 0;
+  std::vector<uint16_t> touched_;  ///< Stamp of the last stripe that touched the cell.
+  std::vector<uint16_t> judged_;   ///< Scan + 1 (its low 16 bits) that last hit the cell, or passed through it while it was occupied; 0: none.
+};
+
+}  // namespace nbs
