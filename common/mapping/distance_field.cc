@@ -10,7 +10,6 @@ namespace {
 
 /// Above every square within reach, and far enough below 65,536 that a square may be added to it.
 constexpr uint16_t kFar = 30000;
-constexpr int kMaxReach = 61;
 
 /// A box of squares, x fastest.
 struct Field {
@@ -38,7 +37,8 @@ struct ObstacleRule {
 };
 
 /// Marks the blocks of one row that hold an obstacle; true if any does.
-bool MarkObstacles(const VoxelGrid& grid, const ObstacleRule& rule, int block, int by, int bz, std::vector<uint8_t>& marks) {
+bool MarkObstacles(const VoxelGrid& grid, const ObstacleRule& rule, int block, int by, int bz,
+                   std::vector<uint8_t>& marks) {
   const Eigen::Vector3i& size = grid.shape().size;
   std::fill(marks.begin(), marks.end(), uint8_t{0});
   bool any = false;
@@ -74,7 +74,9 @@ void Lower(const uint16_t* from, uint16_t square, int width, uint16_t* to) {
   for (int x = 0; x < width; ++x) to[x] = std::min<uint16_t>(to[x], static_cast<uint16_t>(from[x] + square));
 }
 
-bool IsFar(const uint16_t* row, int width) { return std::all_of(row, row + width, [](uint16_t square) { return square >= kFar; }); }
+bool IsFar(const uint16_t* row, int width) {
+  return std::all_of(row, row + width, [](uint16_t square) { return square >= kFar; });
+}
 
 /// Distances along x: a field padded in x.
 Field TransformX(const VoxelGrid& grid, const ObstacleRule& rule, int block, const Eigen::Vector3i& blocks, int reach) {
@@ -114,11 +116,12 @@ Field TransformZ(const Field& in, int reach) {
 
 void CheckSettings(const DistanceFieldSettings& settings, double resolution_m) {
   const bool good = settings.cells_per_block >= 1 && settings.cells_per_block <= 16 && settings.max_distance_m > 0.0 &&
-                    settings.max_distance_m <= 60.0 * settings.cells_per_block * resolution_m && settings.free_max_probability > 0.0 &&
-                    settings.free_max_probability < 0.95;
+                    settings.max_distance_m <= 60.0 * settings.cells_per_block * resolution_m &&
+                    settings.free_max_probability > 0.0 && settings.free_max_probability < 0.95;
   if (good) return;
   throw std::invalid_argument("DistanceField: " + std::to_string(settings.cells_per_block) + " cells per block up to " +
-                              std::to_string(settings.max_distance_m) + " m, free up to p = " + std::to_string(settings.free_max_probability));
+                              std::to_string(settings.max_distance_m) +
+                              " m, free up to p = " + std::to_string(settings.free_max_probability));
 }
 
 }  // namespace
@@ -128,23 +131,37 @@ DistanceField::DistanceField(const VoxelGrid& grid, Obstacles obstacles, const D
   CheckSettings(settings, grid.shape().resolution_m);
   const int block = settings.cells_per_block;
   block_m_ = block * grid.shape().resolution_m;
-  // One block more than the cut-off, so that a block out of reach is at least that far away from every point of this one.
-  const int reach = std::min(static_cast<int>(std::ceil(max_distance_m_ / block_m_ - 1e-9)) + 1, kMaxReach);
+  // One block beyond the cut-off: what is out of reach of a block's centre is further away than that from every point
+  // between it and its neighbours.
+  const int reach = static_cast<int>(std::ceil(max_distance_m_ / block_m_ - 1e-9)) + 1;
   const Eigen::Vector3i blocks = (grid.shape().size.array() + (block - 1)) / block;
-  origin_W_ = grid.shape().origin_W.array() - reach * block_m_;
+  origin_W_ = grid.shape().origin_W.array() - (reach - 0.5) * block_m_;
   size_ = blocks.array() + 2 * reach;
   const ObstacleRule rule{obstacles == Obstacles::kOccupiedOrUnknown, CalcLogOdds(settings.free_max_probability)};
   squares_ = TransformZ(TransformY(TransformX(grid, rule, block, blocks, reach), reach), reach).squares;
+  const uint16_t out_of_reach = CalcSquare(reach + 1);
+  for (uint16_t& square : squares_) square = std::min(square, out_of_reach);
 }
 
 double DistanceField::CalcDistance(const Eigen::Vector3d& p_W) const {
   const Eigen::Array3d at = (p_W - origin_W_).array() / block_m_;
-  const Eigen::Array3d block = at.floor();
-  if (!((block >= 0.0).all() && (block < size_.cast<double>().array()).all())) return max_distance_m_;
-  const size_t index = (static_cast<size_t>(block.z()) * size_.y() + static_cast<size_t>(block.y())) * size_.x() + static_cast<size_t>(block.x());
-  if (squares_[index] >= kFar) return max_distance_m_;
-  const double to_center = (at - block - 0.5).matrix().norm();
-  return std::clamp((0.5 * std::sqrt(squares_[index]) - to_center) * block_m_, 0.0, max_distance_m_);
+  const Eigen::Array3d low = at.floor();
+  if (!((low >= 0.0).all() && (low < (size_.array() - 1).cast<double>()).all())) return max_distance_m_;
+  const Eigen::Array3d f = at - low;
+  const size_t plane = static_cast<size_t>(size_.x()) * size_.y();
+  const uint16_t* corner = squares_.data() + static_cast<size_t>(low.z()) * plane +
+                           static_cast<size_t>(low.y()) * size_.x() + static_cast<size_t>(low.x());
+  const auto along_x = [&](const uint16_t* row) { return row[0] + f.x() * (row[1] - row[0]); };
+  const auto along_y = [&](const uint16_t* layer) {
+    const double first = along_x(layer);
+    return first + f.y() * (along_x(layer + size_.x()) - first);
+  };
+  const double first = along_y(corner);
+  const double mean = first + f.z() * (along_y(corner + plane) - first);
+  // d^2 - |p|^2 is a minimum of linear functions of p, thus concave, and its interpolation between the centres never
+  // above it. Squares count half edges.
+  const double square = 0.25 * mean - (f * (1.0 - f)).sum();
+  return std::clamp(std::sqrt(std::max(square, 0.0)) * block_m_, 0.0, max_distance_m_);
 }
 
 }  // namespace nbs

@@ -29,7 +29,8 @@ Eigen::Vector3i CalcFirstKey(const GridShape& shape) {
 }
 
 octomap::OcTreeKey MakeKey(const Eigen::Vector3i& key) {
-  return {static_cast<octomap::key_type>(key.x()), static_cast<octomap::key_type>(key.y()), static_cast<octomap::key_type>(key.z())};
+  return {static_cast<octomap::key_type>(key.x()), static_cast<octomap::key_type>(key.y()),
+          static_cast<octomap::key_type>(key.z())};
 }
 
 void FillTree(const VoxelGrid& grid, octomap::OcTree& tree) {
@@ -44,7 +45,8 @@ void FillTree(const VoxelGrid& grid, octomap::OcTree& tree) {
       for (int x = 0; x < shape.size.x(); ++x, ++index) {
         const int16_t log_odds = grid.cells()[index];
         if (log_odds == kUnobserved) continue;
-        tree.setNodeValue(MakeKey(first + Eigen::Vector3i(x, y, z)), static_cast<float>(log_odds / kLogOddsPerNat), true);
+        tree.setNodeValue(MakeKey(first + Eigen::Vector3i(x, y, z)), static_cast<float>(log_odds / kLogOddsPerNat),
+                          true);
       }
     }
   }
@@ -52,46 +54,62 @@ void FillTree(const VoxelGrid& grid, octomap::OcTree& tree) {
   tree.prune();
 }
 
-/// The whole file, if it is an OcTree's and has the length that its header announces (OctoMap itself reads a file that is cut short without complaint).
-std::string ReadChecked(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw ConfigError(file.string() + ": cannot be read, give an OctoMap .ot file");
-  std::stringstream text;
-  text << in.rdbuf();
-  const std::string data = text.str();
-
-  std::istringstream header(data.substr(0, 1024));
-  std::string line, id;
+/// The text part of a file.
+struct Header {
+  std::string id;
   std::uintmax_t nodes = 0;
-  while (std::getline(header, line) && line != "data") {
+  double resolution_m = 0.0;
+  std::uintmax_t length = 0;  ///< Bytes, up to the first node; 0: there is no end.
+};
+
+Header ReadHeader(std::istream& in) {
+  Header header;
+  std::string line;
+  while (std::getline(in, line) && line.size() < 1024) {
+    if (line == "data") {
+      header.length = static_cast<std::uintmax_t>(in.tellg());
+      break;
+    }
     std::istringstream words(line);
     std::string key;
     words >> key;
-    if (key == "id") words >> id;
-    if (key == "size") words >> nodes;
+    if (key == "id") words >> header.id;
+    if (key == "size") words >> header.nodes;
+    if (key == "res") words >> header.resolution_m;
   }
-  if (id != "OcTree" || line != "data") throw ConfigError(file.string() + ": is no OctoMap file of an OcTree");
-  const std::uintmax_t length = static_cast<std::uintmax_t>(header.tellg()) + nodes * kBytesPerNode;
-  if (data.size() != length) {
-    throw ConfigError(file.string() + ": is cut short or damaged, " + std::to_string(length) + " bytes are announced and " + std::to_string(data.size()) +
-                      " there");
-  }
-  return data;
+  return header;
 }
 
-std::unique_ptr<octomap::OcTree> ReadTree(const std::filesystem::path& file) {
-  std::istringstream data(ReadChecked(file));
-  std::unique_ptr<octomap::AbstractOcTree> any(octomap::AbstractOcTree::read(data));
-  auto* tree = dynamic_cast<octomap::OcTree*>(any.get());
-  if (tree == nullptr) throw ConfigError(file.string() + ": is no OctoMap file of an OcTree");
-  (void)any.release();
-  return std::unique_ptr<octomap::OcTree>(tree);
+std::unique_ptr<octomap::OcTree> ReadTree(const std::filesystem::path& file, double resolution_m) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw ConfigError(file.string() + ": cannot be read, give an OctoMap .ot file");
+  const Header header = ReadHeader(in);
+  if (header.id != "OcTree" || header.length == 0)
+    throw ConfigError(file.string() + ": is no OctoMap file of an OcTree");
+  if (!(std::abs(header.resolution_m - resolution_m) <= 1e-9)) {
+    throw ConfigError(file.string() + ": has a resolution of " + std::to_string(header.resolution_m) +
+                      " m, wanted is " + std::to_string(resolution_m) + " m");
+  }
+  // OctoMap itself reads a file that is cut short without complaint.
+  const std::uintmax_t announced = header.length + header.nodes * kBytesPerNode,
+                       length = std::filesystem::file_size(file);
+  if (length != announced) {
+    throw ConfigError(file.string() + ": is cut short or damaged, it announces " + std::to_string(announced) +
+                      " bytes and has " + std::to_string(length));
+  }
+  auto tree = std::make_unique<octomap::OcTree>(resolution_m);
+  if (header.nodes > 0) tree->readData(in);
+  if (!in || tree->size() != header.nodes)
+    throw ConfigError(file.string() + ": is damaged, its nodes do not form the announced tree");
+  return tree;
 }
 
-/// Writes a leaf of the tree, a cube of `edge` cells from `corner` (cells of the grid), into the grid; false if it does not fit.
+/// Writes a leaf of the tree, a cube of `edge` cells from `corner` (cells of the grid), into the grid; false if it does
+/// not fit.
 bool InsertLeaf(const Eigen::Vector3i& corner, int edge, float nats, VoxelGrid& grid) {
   const GridShape& shape = grid.shape();
-  if (corner.minCoeff() < 0 || ((corner.array() + edge) > shape.size.array()).any() || !(std::abs(nats) <= kMaxNats)) return false;
+  if (corner.minCoeff() < 0 || ((corner.array() + edge) > shape.size.array()).any() || !(std::abs(nats) <= kMaxNats))
+    return false;
   const auto log_odds = static_cast<int16_t>(std::lround(nats * kLogOddsPerNat));
   for (int z = corner.z(); z < corner.z() + edge; ++z) {
     for (int y = corner.y(); y < corner.y() + edge; ++y) {
@@ -119,10 +137,7 @@ void WriteOctomap(const VoxelGrid& grid, const std::filesystem::path& file) {
 }
 
 VoxelGrid ReadOctomap(const std::filesystem::path& file, const GridShape& shape) {
-  const std::unique_ptr<octomap::OcTree> tree = ReadTree(file);
-  if (std::abs(tree->getResolution() - shape.resolution_m) > 1e-9) {
-    throw ConfigError(file.string() + ": has a resolution of " + std::to_string(tree->getResolution()) + " m, wanted is " + std::to_string(shape.resolution_m) + " m");
-  }
+  const std::unique_ptr<octomap::OcTree> tree = ReadTree(file, shape.resolution_m);
   VoxelGrid grid(shape);
   const Eigen::Vector3i first = CalcFirstKey(shape);
   for (auto leaf = tree->begin_leafs(); leaf != tree->end_leafs(); ++leaf) {

@@ -20,7 +20,8 @@ Eigen::Vector3d ToCells(const GridShape& shape, const Eigen::Vector3d& p_W) { re
 Eigen::Vector3d OriginInCells(const GridShape& shape) { return ToCells(shape, shape.origin_W).array().round(); }
 
 /// Cuts the segment a + t (b - a), t in [0, 1], to the box from `low` to `high`; false if nothing is left.
-bool Clip(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& low, const Eigen::Vector3d& high, double& t_in, double& t_out) {
+bool Clip(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+          double& t_in, double& t_out) {
   for (int axis = 0; axis < 3; ++axis) {
     if (a[axis] >= low[axis] && a[axis] < high[axis] && b[axis] >= low[axis] && b[axis] < high[axis]) continue;
     const double d = b[axis] - a[axis];

@@ -8,21 +8,22 @@ namespace nbs {
 
 /// A straight segment made ready to be walked cell by cell.
 ///
-/// Its length is 2^30 ticks; t_max is the tick at which the walk next leaves its cell along an axis, t_delta the ticks between two such crossings. An axis
-/// that is stepped along n times has its first n crossings at or before tick 2^30 and the next one behind it, whatever the rounding did: so the walk makes
-/// exactly |dx| + |dy| + |dz| steps and ends in the end's cell.
+/// Its length is 2^30 ticks; t_max is the tick at which the walk next leaves its cell along an axis, t_delta the ticks
+/// between two such crossings. An axis that is stepped along n times has its first n crossings at or before tick 2^30
+/// and the next one behind it, whatever the rounding did: so the walk makes exactly |dx| + |dy| + |dz| steps and ends
+/// in the end's cell.
 struct RayWalk {
-  int64_t index = 0;        ///< Cell in which the walk begins.
-  int32_t steps = -1;       ///< Steps to the last cell; -1: the segment does not touch the box, nothing to walk.
-  uint32_t t_max[3] = {};   ///< Ticks.
+  int64_t index = 0;       ///< Cell in which the walk begins.
+  int32_t steps = -1;      ///< Steps to the last cell; -1: the segment does not touch the box, nothing to walk.
+  uint32_t t_max[3] = {};  ///< Ticks.
   uint32_t t_delta[3] = {};
-  int64_t stride[3] = {};   ///< What a step along each axis adds to the index.
+  int64_t stride[3] = {};  ///< What a step along each axis adds to the index.
 };
 
 /// Readies the segment from A to B, clipped to the box of the grid.
 ///
-/// A cell holds its lower faces, not its upper ones (as OctoMap's keys do); a clipped end on the box's upper face belongs to the last cell.
-/// Ends that are not finite or more than 1e9 cells away give a walk of nothing.
+/// A cell holds its lower faces, not its upper ones (as OctoMap's keys do); a clipped end on the box's upper face
+/// belongs to the last cell. Ends that are not finite or more than 1e9 cells away give a walk of nothing.
 ///
 /// @param p_WA, p_WB  Metres; may be equal.
 RayWalk MakeRayWalk(const GridShape& shape, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB);
@@ -30,11 +31,13 @@ RayWalk MakeRayWalk(const GridShape& shape, const Eigen::Vector3d& p_WA, const E
 /// Index of the cell that holds a point; -1 outside the box, or if the point is not finite.
 int64_t FindCell(const GridShape& shape, const Eigen::Vector3d& p_W);
 
-/// Calls `visit(index)` for the cells that the segment passes through, from the cell of A to that of B, until it returns false.
+/// Calls `visit(index)` for the cells that the segment passes through, from the cell of A to that of B, until it
+/// returns false.
 ///
-/// Neighbours share a face and no cell comes twice. After Amanatides & Woo, Eurographics 1987, in integers: equal input gives equal cells on every machine,
-/// and a segment may be walked by any thread. Where it meets an edge or a corner exactly it steps along z before y before x, as OctoMap's computeRayKeys does,
-/// whose cells it visits but for crossings that lie within the rounding of a tick.
+/// Neighbours share a face and no cell comes twice. After Amanatides & Woo, Eurographics 1987, in integers: equal input
+/// gives equal cells on every machine, and a segment may be walked by any thread. Where it meets an edge or a corner
+/// exactly it steps along z before y before x, as OctoMap's computeRayKeys does, whose cells it visits but for
+/// crossings that lie within the rounding of a tick.
 template <typename Visit>
 inline void WalkRay(const RayWalk& ray, Visit&& visit) {
   if (ray.steps < 0) return;

@@ -24,15 +24,18 @@ void CheckShape(const GridShape& shape) {
   int64_t cells = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const int size = shape.size[axis];
-    if (size < 1) throw ConfigError("the voxel grid has " + std::to_string(size) + " cells along an axis: make the box larger");
+    if (size < 1)
+      throw ConfigError("the voxel grid has " + std::to_string(size) + " cells along an axis: make the box larger");
     // Sides are below 2^31, so the product cannot overflow before it is refused.
     cells *= size;
     if (cells > kMaxGridCells) {
-      throw ConfigError("the voxel grid has more than " + std::to_string(kMaxGridCells) + " cells: choose a coarser resolution_m or a smaller box");
+      throw ConfigError("the voxel grid has more than " + std::to_string(kMaxGridCells) +
+                        " cells: choose a coarser resolution_m or a smaller box");
     }
     const double origin_cells = shape.origin_W[axis] / shape.resolution_m;
     if (std::abs(origin_cells - std::round(origin_cells)) > 1e-6) {
-      throw ConfigError("the voxel grid's origin " + std::to_string(shape.origin_W[axis]) + " m is no multiple of its resolution");
+      throw ConfigError("the voxel grid's origin " + std::to_string(shape.origin_W[axis]) +
+                        " m is no multiple of its resolution");
     }
   }
 }
@@ -43,13 +46,15 @@ double CalcEntropy(double probability) {
 }
 
 void CheckRuns(const VoxelDelta& delta, int64_t cells) {
-  if (delta.run_start.size() != delta.run_length.size()) throw std::invalid_argument("VoxelGrid::Apply: runs without a length");
+  if (delta.run_start.size() != delta.run_length.size())
+    throw std::invalid_argument("VoxelGrid::Apply: runs without a length");
   int64_t end = 0;
   size_t values = 0;
   for (size_t i = 0; i < delta.run_start.size(); ++i) {
     const bool ascends = static_cast<int64_t>(delta.run_start[i]) >= end && delta.run_length[i] > 0;
     end = static_cast<int64_t>(delta.run_start[i]) + delta.run_length[i];
-    if (!ascends || end > cells) throw std::invalid_argument("VoxelGrid::Apply: bad run at cell " + std::to_string(delta.run_start[i]));
+    if (!ascends || end > cells)
+      throw std::invalid_argument("VoxelGrid::Apply: bad run at cell " + std::to_string(delta.run_start[i]));
     values += delta.run_length[i];
   }
   if (values != delta.values.size()) throw std::invalid_argument("VoxelGrid::Apply: runs and values disagree");

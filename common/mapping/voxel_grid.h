@@ -28,16 +28,18 @@ double CalcProbability(int16_t log_odds);
 /// @throws std::invalid_argument if p is not in (0, 1).
 int16_t CalcLogOdds(double probability);
 
-/// H(p) = -p ln p - (1 - p) ln(1 - p) of every log-odds (eq. 1) in 1/65536 nat, rounded to nearest; entry of l: [static_cast<uint16_t>(l)].
-/// At most that of kUnobserved and 0, ln 2.
+/// H(p) = -p ln p - (1 - p) ln(1 - p) of every log-odds (eq. 1) in 1/65536 nat, rounded to nearest; entry of l:
+/// [static_cast<uint16_t>(l)]. At most that of kUnobserved and 0, ln 2.
 std::span<const uint16_t, 65536> EntropyTable();
 
-/// The probabilistic voxel space (section III-C): one int16 log-odds per cell of a box, dense. What lies outside is known to be free.
+/// The probabilistic voxel space (section III-C): one int16 log-odds per cell of a box, dense. What lies outside is
+/// known to be free.
 class VoxelGrid {
  public:
   /// A grid of cells that were never observed.
   ///
-  /// @throws ConfigError if the resolution or the origin is not finite or the resolution not positive, a side has less than one cell, the origin is no multiple
+  /// @throws ConfigError if the resolution or the origin is not finite or the resolution not positive, a side has less
+  /// than one cell, the origin is no multiple
   ///         of the resolution (to 1e-6 cells), or there are more than kMaxGridCells cells.
   explicit VoxelGrid(const GridShape& shape);
 
@@ -49,7 +51,8 @@ class VoxelGrid {
 
   /// Folds the changes of another grid of the same shape in: afterwards the cells of the runs hold the delta's values.
   ///
-  /// @throws std::invalid_argument if the runs do not ascend, overlap, leave the grid or disagree with the number of values; the grid is then unchanged.
+  /// @throws std::invalid_argument if the runs do not ascend, overlap, leave the grid or disagree with the number of
+  /// values; the grid is then unchanged.
   void Apply(const VoxelDelta& delta);
 
   bool operator==(const VoxelGrid&) const = default;
@@ -71,8 +74,8 @@ class ChangeTracker {
     word |= uint64_t{1} << (index & 63);
   }
 
-  /// The runs of marked cells with their values in `grid`, ascending; a run of more than 65,535 cells comes in pieces. Forgets the marks. Time, scan and
-  /// end_of_scan are left at their defaults.
+  /// The runs of marked cells with their values in `grid`, ascending; a run of more than 65,535 cells comes in pieces.
+  /// Forgets the marks. Time, scan and end_of_scan are left at their defaults.
   VoxelDelta TakeDelta(const VoxelGrid& grid);
 
  private:

@@ -35,7 +35,9 @@ int64_t Scale(int64_t sum, int64_t all, int64_t sampled) { return sum / sampled 
 }  // namespace
 
 InformationGain::InformationGain(const Profiler& profiler)
-    : stripe_spacing_m_(profiler.scan_speed_m_per_s / profiler.rate_hz), max_depth_m_(profiler.max_depth_m), beams_S_(CalcBeamDirections_S(profiler)) {
+    : stripe_spacing_m_(profiler.scan_speed_m_per_s / profiler.rate_hz),
+      max_depth_m_(profiler.max_depth_m),
+      beams_S_(CalcBeamDirections_S(profiler)) {
   for (Eigen::Vector3d& beam_S : beams_S_) beam_S *= max_depth_m_ / beam_S.z();
 }
 
@@ -56,7 +58,8 @@ int64_t InformationGain::CalcStripe(const VoxelGrid& grid, const Pose& X_WS, int
 }
 
 int64_t InformationGain::Calc(const VoxelGrid& grid, const ScanPath& path, GainSampling sampling) const {
-  if (sampling.stripe_step < 1 || sampling.beam_step < 1) throw std::invalid_argument("InformationGain: a sampling step below 1");
+  if (sampling.stripe_step < 1 || sampling.beam_step < 1)
+    throw std::invalid_argument("InformationGain: a sampling step below 1");
   const int stripes = CountStripes(path);
   const int beams = static_cast<int>(beams_S_.size());
   const int first = CalcFirst(stripes, sampling.stripe_step);
@@ -64,14 +67,16 @@ int64_t InformationGain::Calc(const VoxelGrid& grid, const ScanPath& path, GainS
   for (int i = first; i < stripes; i += sampling.stripe_step) {
     sum += CalcStripe(grid, CalcStripePose(path, stripe_spacing_m_, i), sampling.beam_step);
   }
-  const int64_t sampled =
-      CountSampled(stripes, sampling.stripe_step, first) * CountSampled(beams, sampling.beam_step, CalcFirst(beams, sampling.beam_step));
+  const int64_t sampled = CountSampled(stripes, sampling.stripe_step, first) *
+                          CountSampled(beams, sampling.beam_step, CalcFirst(beams, sampling.beam_step));
   return Scale(sum, static_cast<int64_t>(stripes) * beams, sampled);
 }
 
-std::vector<int64_t> InformationGain::CalcAll(const VoxelGrid& grid, std::span<const ScanPath> paths, GainSampling sampling, int threads) const {
+std::vector<int64_t> InformationGain::CalcAll(const VoxelGrid& grid, std::span<const ScanPath> paths,
+                                              GainSampling sampling, int threads) const {
   if (threads < 1) throw std::invalid_argument("InformationGain: " + std::to_string(threads) + " threads");
-  if (sampling.stripe_step < 1 || sampling.beam_step < 1) throw std::invalid_argument("InformationGain: a sampling step below 1");
+  if (sampling.stripe_step < 1 || sampling.beam_step < 1)
+    throw std::invalid_argument("InformationGain: a sampling step below 1");
   std::vector<int64_t> gains(paths.size(), 0);
   // Each thread takes every threads-th path and writes to entries of its own.
   const auto work = [&](size_t first) {

@@ -10,8 +10,8 @@
 
 namespace nbs {
 
-/// Which beams of a scan path are evaluated: every `stripe_step`-th stripe and every `beam_step`-th beam, from the middle of the first group; the sum is scaled to all
-/// beams.
+/// Which beams of a scan path are evaluated: every `stripe_step`-th stripe and every `beam_step`-th beam, from the
+/// middle of the first group; the sum is scaled to all beams.
 struct GainSampling {
   int stripe_step = 1;
   int beam_step = 1;
@@ -22,10 +22,12 @@ inline constexpr GainSampling kAllBeams = {1, 1};
 /// A sixteenth of the beams: for ranking.
 inline constexpr GainSampling kSixteenth = {4, 4};
 
-/// The information gain of scan paths (section III-D, eq. 2): the sum over all beams of a path, and over the cells along each beam from the emitter to the largest depth,
-/// of the cell's entropy (eq. 1). A beam ends before the first occupied cell; what is outside the grid is known to be free and adds nothing.
+/// The information gain of scan paths (section III-D, eq. 2): the sum over all beams of a path, and over the cells
+/// along each beam from the emitter to the largest depth, of the cell's entropy (eq. 1). A beam ends before the first
+/// occupied cell; what is outside the grid is known to be free and adds nothing.
 ///
-/// Gains are integers in 1/65536 nat (kEntropyPerNat): the result depends neither on the order of the beams nor on threads.
+/// Gains are integers in 1/65536 nat (kEntropyPerNat): the result depends neither on the order of the beams nor on
+/// threads.
 class InformationGain {
  public:
   explicit InformationGain(const Profiler& profiler);
@@ -39,9 +41,11 @@ class InformationGain {
   int64_t Calc(const VoxelGrid& grid, const ScanPath& path, GainSampling sampling) const;
 
   /// The same of each path, evaluated by `threads` threads (>= 1); equal to Calc one by one.
-  std::vector<int64_t> CalcAll(const VoxelGrid& grid, std::span<const ScanPath> paths, GainSampling sampling, int threads) const;
+  std::vector<int64_t> CalcAll(const VoxelGrid& grid, std::span<const ScanPath> paths, GainSampling sampling,
+                               int threads) const;
 
-  /// Gain per stripe along the path, CountStripes entries, every `beam_step`-th beam scaled to all. With beam_step 1 their sum is Calc(grid, path, kAllBeams).
+  /// Gain per stripe along the path, CountStripes entries, every `beam_step`-th beam scaled to all. With beam_step 1
+  /// their sum is Calc(grid, path, kAllBeams).
   std::vector<int64_t> CalcPerStripe(const VoxelGrid& grid, const ScanPath& path, int beam_step) const;
 
  private:

@@ -13,7 +13,8 @@ namespace {
 constexpr double kDepthTolerance = 1e-3;
 
 int16_t ToStep(const char* name, double nat) {
-  if (!(nat > 0.0 && nat < 16.0)) throw ConfigError(std::string(name) + " is " + std::to_string(nat) + ": choose between 0 and 16 nats");
+  if (!(nat > 0.0 && nat < 16.0))
+    throw ConfigError(std::string(name) + " is " + std::to_string(nat) + ": choose between 0 and 16 nats");
   return static_cast<int16_t>(std::lround(nat * kLogOddsPerNat));
 }
 
@@ -27,8 +28,10 @@ Eigen::Vector3d CalcPointBefore(const Eigen::Vector3d& p_A, const Eigen::Vector3
 }  // namespace
 
 LogOddsSteps MakeLogOddsSteps(const InverseSensorModelSettings& settings) {
-  const bool ordered = settings.min_probability > 0.0 && settings.min_probability < 0.5 && settings.max_probability > 0.5 && settings.max_probability < 1.0;
-  if (!ordered) throw ConfigError("the clamps of the voxel space must keep 0 < min_probability < 0.5 < max_probability < 1");
+  const bool ordered = settings.min_probability > 0.0 && settings.min_probability < 0.5 &&
+                       settings.max_probability > 0.5 && settings.max_probability < 1.0;
+  if (!ordered)
+    throw ConfigError("the clamps of the voxel space must keep 0 < min_probability < 0.5 < max_probability < 1");
   LogOddsSteps steps;
   steps.hit = ToStep("hit_nat", settings.hit_nat);
   steps.miss = ToStep("miss_nat", settings.miss_nat);
@@ -36,20 +39,23 @@ LogOddsSteps MakeLogOddsSteps(const InverseSensorModelSettings& settings) {
   steps.highest = CalcLogOdds(settings.max_probability);
   if (!IsOccupied(steps.highest)) throw ConfigError("max_probability is below 0.95: no cell would ever be occupied");
   if (steps.lowest + steps.hit < kOccupiedLogOdds) {
-    throw ConfigError("hit_nat is " + std::to_string(settings.hit_nat) + ": one hit on a free cell must make it occupied, choose a larger one");
+    throw ConfigError("hit_nat is " + std::to_string(settings.hit_nat) +
+                      ": one hit on a free cell must make it occupied, choose a larger one");
   }
   return steps;
 }
 
-StripeEvidence CalcStripeEvidence(const Profiler& profiler, const std::vector<Eigen::Vector3d>& directions_S, double free_margin_sigma,
-                                  const Stripe& stripe) {
+StripeEvidence CalcStripeEvidence(const Profiler& profiler, const std::vector<Eigen::Vector3d>& directions_S,
+                                  double free_margin_sigma, const Stripe& stripe) {
   StripeEvidence evidence;
   const Eigen::Vector3d p_WS = stripe.X_WS.translation();
   const Eigen::Vector3d p_WC = stripe.X_WS * Eigen::Vector3d(0.0, profiler.camera_baseline_m, 0.0);
   for (size_t i = 0; i < stripe.ranges_m.size(); ++i) {
     const double range = stripe.ranges_m[i];
     const double depth = range * directions_S[i].z();
-    if (!(range > 0.0) || depth < profiler.min_depth_m - kDepthTolerance || depth > profiler.max_depth_m + kDepthTolerance) continue;
+    if (!(range > 0.0) || depth < profiler.min_depth_m - kDepthTolerance ||
+        depth > profiler.max_depth_m + kDepthTolerance)
+      continue;
     const Eigen::Vector3d p_WP = stripe.X_WS * (range * directions_S[i]);
     const double margin = free_margin_sigma * CalcRangeSigma(profiler, depth);
     evidence.hits_W.push_back(p_WP);

@@ -10,8 +10,9 @@ namespace nbs {
 
 /// Weights of the inverse sensor model.
 struct InverseSensorModelSettings {
-  double hit_nat = 8.0;            ///< Log-likelihood quotient of a return in a cell: more than min to occupied, so that one clear hit occludes at once.
-  double miss_nat = 2.0;           ///< The same of a pass, taken off.
+  double hit_nat = 8.0;   ///< Log-likelihood quotient of a return in a cell: more than min to occupied, so that one
+                          ///< clear hit occludes at once.
+  double miss_nat = 2.0;  ///< The same of a pass, taken off.
   double min_probability = 0.007;  ///< Clamps: a cell never gets surer than this.
   double max_probability = 0.993;
   double free_margin_sigma = 3.0;  ///< k: a beam with range z frees up to z - k sigma(z).
@@ -25,7 +26,8 @@ struct LogOddsSteps {
   int16_t highest = 0;
 };
 
-/// @throws ConfigError if a weight is not positive and below 16 nats, the clamps are not in 0 < min < 0.5 < max < 1, a single hit on a cell that is known to be free
+/// @throws ConfigError if a weight is not positive and below 16 nats, the clamps are not in 0 < min < 0.5 < max < 1, a
+/// single hit on a cell that is known to be free
 ///         does not make it occupied, or the highest probability is not occupied.
 LogOddsSteps MakeLogOddsSteps(const InverseSensorModelSettings& settings);
 
@@ -41,13 +43,15 @@ struct StripeEvidence {
   std::vector<FreeRay> free_rays;
 };
 
-/// The geometry of a stripe after the inverse sensor model (section III-C): per beam with range z a point at z and a clear line from the emitter to z - k sigma(z); with a
-/// camera (baseline > 0) the line from the camera to the same distance before the point as well. Behind the point nothing is known. A beam without a return (range 0)
-/// or with a depth outside the depth of field by more than 1 mm proves nothing: the object may stand nearer than the depth of field.
+/// The geometry of a stripe after the inverse sensor model (section III-C): per beam with range z a point at z and a
+/// clear line from the emitter to z - k sigma(z); with a camera (baseline > 0) the line from the camera to the same
+/// distance before the point as well. Behind the point nothing is known. A beam without a return (range 0) or with a
+/// depth outside the depth of field by more than 1 mm proves nothing: the object may stand nearer than the depth of
+/// field.
 ///
 /// @param directions_S  CalcBeamDirections_S of the profiler.
 /// @pre  stripe.ranges_m has one entry per direction, or none.
-StripeEvidence CalcStripeEvidence(const Profiler& profiler, const std::vector<Eigen::Vector3d>& directions_S, double free_margin_sigma,
-                                  const Stripe& stripe);
+StripeEvidence CalcStripeEvidence(const Profiler& profiler, const std::vector<Eigen::Vector3d>& directions_S,
+                                  double free_margin_sigma, const Stripe& stripe);
 
 }  // namespace nbs

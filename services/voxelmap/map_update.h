@@ -10,13 +10,16 @@
 
 namespace nbs {
 
-/// The probabilistic voxel space and Bayes' update of it, stripe by stripe (section III-C): l <- l + log(p(z|occupied) / p(z|free)), clamped.
+/// The probabilistic voxel space and Bayes' update of it, stripe by stripe (section III-C): l <- l + log(p(z|occupied)
+/// / p(z|free)), clamped.
 ///
-/// One stripe is one observation of each cell that it touches: a hit if any return lies in the cell, else a pass if any clear line crosses it. So neither the order of
-/// the beams nor their number in a cell matters, and a hit wins over the passes of the same stripe.
+/// One stripe is one observation of each cell that it touches: a hit if any return lies in the cell, else a pass if any
+/// clear line crosses it. So neither the order of the beams nor their number in a cell matters, and a hit wins over the
+/// passes of the same stripe.
 ///
-/// Oblique beams cross cells of a surface without meeting it. So that they don't eat it, an occupied cell takes passes more slowly: none in a scan that hit it,
-/// else one per scan. A single hit makes any cell occupied; two scans that pass through it and never hit it clear it again.
+/// Oblique beams cross cells of a surface without meeting it. So that they don't eat it, an occupied cell takes passes
+/// more slowly: none in a scan that hit it, else one per scan. A single hit makes any cell occupied; two scans that
+/// pass through it and never hit it clear it again.
 class MapUpdate {
  public:
   /// @throws ConfigError for bad settings (MakeLogOddsSteps) or a bad shape (VoxelGrid).
@@ -46,7 +49,8 @@ class MapUpdate {
   ChangeTracker changes_;
   uint16_t stripe_stamp_ = 0;
   std::vector<uint16_t> touched_;  ///< Stamp of the last stripe that touched the cell.
-  std::vector<uint16_t> judged_;   ///< Scan + 1 (its low 16 bits) that last hit the cell, or passed through it while it was occupied; 0: none.
+  std::vector<uint16_t> judged_;   ///< Scan + 1 (its low 16 bits) that last hit the cell, or passed through it while it
+                                   ///< was occupied; 0: none.
 };
 
 }  // namespace nbs

@@ -33,7 +33,8 @@ bool VoxelmapNode::Accepts(const Stripe& stripe) {
   }
   if (!stripe.end_of_scan) {
     const bool right_count = static_cast<int>(stripe.ranges_m.size()) == points_;
-    if (!right_count || !std::ranges::all_of(stripe.ranges_m, [](float range) { return std::isfinite(range) && range >= 0.0F; })) {
+    if (!right_count ||
+        !std::ranges::all_of(stripe.ranges_m, [](float range) { return std::isfinite(range) && range >= 0.0F; })) {
       ++bad_ranges_;
       return false;
     }

@@ -6,11 +6,12 @@
 
 namespace nbs {
 
-/// Folds stripes into the probabilistic voxel space and publishes its changes: a delta every 25 accepted stripes and one at the end of a scan, which comes even if
-/// nothing changed and carries end_of_scan.
+/// Folds stripes into the probabilistic voxel space and publishes its changes: a delta every 25 accepted stripes and
+/// one at the end of a scan, which comes even if nothing changed and carries end_of_scan.
 ///
-/// Refused, counted and otherwise ignored: a stripe with the wrong number of ranges, a range that is negative or not finite, a pose that is not rigid, a stripe of an
-/// earlier scan or one that is closed, and one whose index is not above its predecessor's in the same scan. A closing stripe is refused only if its scan is closed.
+/// Refused, counted and otherwise ignored: a stripe with the wrong number of ranges, a range that is negative or not
+/// finite, a pose that is not rigid, a stripe of an earlier scan or one that is closed, and one whose index is not
+/// above its predecessor's in the same scan. A closing stripe is refused only if its scan is closed.
 class VoxelmapNode : public Node {
  public:
   static constexpr int kStripesPerDelta = 25;
@@ -30,7 +31,7 @@ class VoxelmapNode : public Node {
   int points_;
   MapUpdate map_;
   int32_t scan_ = -1;
-  int32_t last_index_ = -1;   ///< Of the last stripe of the scan.
+  int32_t last_index_ = -1;  ///< Of the last stripe of the scan.
   bool scan_closed_ = false;
   int stripes_since_delta_ = 0;
   int64_t bad_ranges_ = 0;

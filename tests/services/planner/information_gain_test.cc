@@ -1,0 +1,207 @@
+#include "services/planner/information_gain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "common/mapping/ray_walk.h"
+
+namespace nbs {
+namespace {
+
+constexpr double kResolution = 0.005;
+
+VoxelGrid MakeUnknownBox() {
+  return VoxelGrid({Eigen::Vector3d::Constant(-0.1), kResolution, Eigen::Vector3i::Constant(40)});
+}
+
+/// A path that looks along `view_W` at the middle of the box from 0.3 m, `length` long across.
+ScanPath MakePath(const Eigen::Vector3d& view_W, const Eigen::Vector3d& scan_W, double length) {
+  const Eigen::Vector3d middle_W = -0.3 * view_W.normalized();
+  ScanPath path;
+  path.X_WS_start = MakeLookPose(middle_W - 0.5 * length * scan_W.normalized(), view_W, scan_W);
+  path.X_WS_end = MakeLookPose(middle_W + 0.5 * length * scan_W.normalized(), view_W, scan_W);
+  return path;
+}
+
+/// Random values, among them free, unknown and a few occupied cells.
+VoxelGrid MakeMixedBox(uint64_t seed) {
+  VoxelGrid grid = MakeUnknownBox();
+  std::mt19937_64 engine(seed);
+  for (int16_t& cell : grid.cells()) {
+    const uint64_t draw = engine() % 100;
+    if (draw < 50) cell = static_cast<int16_t>(static_cast<int>(engine() % 8000) - 5000);
+    if (draw == 99) cell = 5000;
+  }
+  return grid;
+}
+
+ScanPath MakeRandomPath(std::mt19937_64& engine) {
+  std::normal_distribution<double> normal;
+  const auto direction = [&] { return Eigen::Vector3d(normal(engine), normal(engine), normal(engine)).normalized(); };
+  return MakePath(direction(), direction(), 0.1);
+}
+
+/// Eq. 2 written out: floating-point entropies, cell by cell.
+double CalcByDefinition(const Profiler& profiler, const VoxelGrid& grid, const ScanPath& path) {
+  double sum = 0.0;
+  const int stripes = static_cast<int>(path.length_m() / 0.002 + 1e-6) + 1;
+  for (int i = 0; i < stripes; ++i) {
+    const Pose X_WS = Interpolate(path.X_WS_start, path.X_WS_end, i * 0.002 / path.length_m());
+    for (int beam = 0; beam < profiler.points; ++beam) {
+      const Eigen::Vector3d beam_S = CalcBeamDirection_S(profiler, beam);
+      WalkRay(MakeRayWalk(grid.shape(), X_WS.translation(), X_WS * (beam_S * profiler.max_depth_m / beam_S.z())),
+              [&](int64_t index) {
+                const double p = CalcProbability(grid.cells()[index]);
+                if (p >= 0.95) return false;
+                sum += -p * std::log(p) - (1.0 - p) * std::log(1.0 - p);
+                return true;
+              });
+    }
+  }
+  return sum;
+}
+
+TEST(InformationGain, IsTheSumOfEquation2) {
+  const Profiler profiler;
+  const InformationGain gain(profiler);
+  std::mt19937_64 engine(1);
+  for (int i = 0; i < 5; ++i) {
+    const VoxelGrid grid = MakeMixedBox(i);
+    const ScanPath path = MakeRandomPath(engine);
+    const double expected = CalcByDefinition(profiler, grid, path);
+    EXPECT_NEAR(ToNats(gain.Calc(grid, path, kAllBeams)), expected, 1e-5 * expected + 1.0);
+  }
+}
+
+TEST(InformationGain, OfAnUnknownBoxIsLn2PerCellFromEverySide) {
+  // A nearly parallel fan straight through the box: each beam crosses 40 cells.
+  Profiler profiler;
+  profiler.fan_rad = 1e-6;
+  const InformationGain gain(profiler);
+  const VoxelGrid grid = MakeUnknownBox();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Eigen::Vector3d view_W = sign * Eigen::Vector3d::Unit(axis), scan_W = Eigen::Vector3d::Unit((axis + 1) % 3);
+      ScanPath path = MakePath(view_W, scan_W, 0.1);
+      // Off the cells' faces.
+      for (Pose* X_WS : {&path.X_WS_start, &path.X_WS_end}) X_WS->translation() += Eigen::Vector3d::Constant(0.0011);
+      const double cells = 51.0 * 224.0 * 40.0;
+      EXPECT_NEAR(ToNats(gain.Calc(grid, path, kAllBeams)) / cells, std::numbers::ln2, 1e-5);
+    }
+  }
+}
+
+TEST(InformationGain, OfSpaceThatIsOutsideTheGridIsZero) {
+  const InformationGain gain{Profiler{}};
+  ScanPath path = MakePath(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), 0.1);
+  for (Pose* X_WS : {&path.X_WS_start, &path.X_WS_end}) X_WS->translation().y() += 1.0;
+  EXPECT_EQ(gain.Calc(MakeUnknownBox(), path, kAllBeams), 0);
+}
+
+TEST(InformationGain, AWallOccludesWhatIsBehind) {
+  const InformationGain gain{Profiler{}};
+  const ScanPath path = MakePath(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), 0.1);
+  VoxelGrid wall = MakeUnknownBox(), half = MakeUnknownBox();
+  for (int z = 0; z < 40; ++z) {
+    for (int x = 0; x < 40; ++x) {
+      wall.cells()[wall.shape().Index(x, 0, z)] = 5000;
+      for (int y = 20; y < 40; ++y) half.cells()[half.shape().Index(x, y, z)] = 5000;
+    }
+  }
+  const std::vector<int64_t> stripes = gain.CalcPerStripe(wall, path, 1);
+  const std::vector<int64_t> open = gain.CalcPerStripe(MakeUnknownBox(), path, 1);
+  EXPECT_EQ(*std::ranges::max_element(stripes), 0);
+  EXPECT_GT(*std::ranges::min_element(open), 0);
+  // Nothing that stands behind the wall changes the sum.
+  VoxelGrid wall_and_more = half;
+  for (int z = 0; z < 40; ++z) {
+    for (int x = 0; x < 40; ++x) wall_and_more.cells()[half.shape().Index(x, 30, z)] = -5000;
+  }
+  EXPECT_EQ(gain.Calc(half, path, kAllBeams), gain.Calc(wall_and_more, path, kAllBeams));
+}
+
+TEST(InformationGain, NeverGrowsWhenACellGetsSurer) {
+  const InformationGain gain{Profiler{}};
+  std::mt19937_64 engine(2);
+  const ScanPath path = MakeRandomPath(engine);
+  VoxelGrid grid = MakeUnknownBox();
+  int64_t before = gain.Calc(grid, path, kAllBeams);
+  for (int round = 0; round < 20; ++round) {
+    for (int i = 0; i < 3000; ++i)
+      grid.cells()[engine() % grid.cells().size()] = static_cast<int16_t>(-200 * round - 1);
+    const int64_t after = gain.Calc(grid, path, kAllBeams);
+    EXPECT_LE(after, before);
+    before = after;
+  }
+}
+
+TEST(InformationGain, DoesNotDependOnTheNumberOfThreads) {
+  const InformationGain gain{Profiler{}};
+  std::mt19937_64 engine(3);
+  std::vector<ScanPath> paths;
+  for (int i = 0; i < 9; ++i) paths.push_back(MakeRandomPath(engine));
+  const VoxelGrid grid = MakeMixedBox(4);
+  const std::vector<int64_t> one = gain.CalcAll(grid, paths, kSixteenth, 1);
+  for (const int threads : {2, 3, 20}) EXPECT_EQ(gain.CalcAll(grid, paths, kSixteenth, threads), one);
+  for (size_t i = 0; i < paths.size(); ++i) EXPECT_EQ(gain.Calc(grid, paths[i], kSixteenth), one[i]);
+}
+
+TEST(InformationGain, OfASixteenthOfTheBeamsIsNearThatOfAll) {
+  const InformationGain gain{Profiler{}};
+  std::mt19937_64 engine(5);
+  const VoxelGrid grid = MakeUnknownBox();
+  for (int i = 0; i < 10; ++i) {
+    const ScanPath path = MakeRandomPath(engine);
+    const double all = ToNats(gain.Calc(grid, path, kAllBeams));
+    EXPECT_NEAR(ToNats(gain.Calc(grid, path, kSixteenth)), all, 0.02 * all);
+  }
+}
+
+TEST(InformationGain, OfTheStripesAddsUpToThatOfThePath) {
+  const InformationGain gain{Profiler{}};
+  std::mt19937_64 engine(6);
+  const VoxelGrid grid = MakeMixedBox(7);
+  const ScanPath path = MakeRandomPath(engine);
+  const std::vector<int64_t> stripes = gain.CalcPerStripe(grid, path, 1);
+  EXPECT_EQ(static_cast<int>(stripes.size()), gain.CountStripes(path));
+  int64_t sum = 0;
+  for (const int64_t stripe : stripes) sum += stripe;
+  EXPECT_EQ(sum, gain.Calc(grid, path, kAllBeams));
+}
+
+TEST(InformationGain, CountsOneStripePerSpacingAndBothEnds) {
+  const InformationGain gain{Profiler{}};
+  const auto count = [&](double length) {
+    return gain.CountStripes(MakePath(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), length));
+  };
+  EXPECT_EQ(count(0.0), 1);
+  EXPECT_EQ(count(0.0019), 1);
+  EXPECT_EQ(count(0.002), 2);
+  EXPECT_EQ(count(0.1), 51);
+  EXPECT_EQ(count(0.399), 200);
+}
+
+TEST(InformationGain, OfAStandingSensorIsThatOfOneStripe) {
+  const InformationGain gain{Profiler{}};
+  const ScanPath path = MakePath(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), 0.0);
+  EXPECT_GT(gain.Calc(MakeUnknownBox(), path, kAllBeams), 0);
+  EXPECT_GT(gain.Calc(MakeUnknownBox(), path, kSixteenth), 0);
+}
+
+TEST(InformationGain, RefusesStepsAndThreadsBelowOne) {
+  const InformationGain gain{Profiler{}};
+  const VoxelGrid grid = MakeUnknownBox();
+  const ScanPath path = MakePath(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), 0.0);
+  EXPECT_THROW((void)gain.Calc(grid, path, {0, 1}), std::invalid_argument);
+  EXPECT_THROW((void)gain.Calc(grid, path, {1, -1}), std::invalid_argument);
+  EXPECT_THROW((void)gain.CalcPerStripe(grid, path, 0), std::invalid_argument);
+  EXPECT_THROW((void)gain.CalcAll(grid, std::vector{path}, {0, 1}, 2), std::invalid_argument);
+  EXPECT_THROW((void)gain.CalcAll(grid, std::vector{path}, kAllBeams, 0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nbs
