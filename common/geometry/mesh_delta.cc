@@ -9,7 +9,8 @@ namespace {
 constexpr uint32_t kMaxSlots = 1u << 28;
 
 void CheckSlot(uint32_t id) {
-  if (id >= kMaxSlots) throw std::invalid_argument("MeshReplica: slot number " + std::to_string(id) + " is out of range");
+  if (id >= kMaxSlots)
+    throw std::invalid_argument("MeshReplica: slot number " + std::to_string(id) + " is out of range");
 }
 
 }  // namespace

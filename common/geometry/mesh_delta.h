@@ -1,10 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "common/geometry/triangle_mesh.h"
 
@@ -12,12 +11,12 @@ namespace nbs {
 
 /// State of one mesh vertex, as published.
 struct MeshVertex {
-  uint32_t id = 0;                                       ///< Slot, stable for the life of the vertex.
-  Eigen::Vector3f p_W = Eigen::Vector3f::Zero();         ///< Metres.
-  Eigen::Vector3f normal_W = Eigen::Vector3f::Zero();    ///< Unit length, towards the side that was seen.
-  float sigma_m = 0.0f;                                  ///< Standard deviation of the position along the normal.
-  float best_incidence_rad = 0.0f;                       ///< Smallest angle between a beam and the normal so far.
-  uint16_t measurements = 0;                             ///< 0: the vertex is no more.
+  uint32_t id = 0;                                     ///< Slot, stable for the life of the vertex.
+  Eigen::Vector3f p_W = Eigen::Vector3f::Zero();       ///< Metres.
+  Eigen::Vector3f normal_W = Eigen::Vector3f::Zero();  ///< Unit length, towards the side that was seen.
+  float sigma_m = 0.0f;                                ///< Standard deviation of the position along the normal.
+  float best_incidence_rad = 0.0f;                     ///< Smallest angle between a beam and the normal so far.
+  uint16_t measurements = 0;                           ///< 0: the vertex is no more.
   uint16_t first_scan = 0;
   uint16_t last_scan = 0;
 
@@ -32,8 +31,8 @@ struct MeshTriangle {
   bool operator==(const MeshTriangle&) const = default;
 };
 
-/// What changed in the mesh since the delta before it: the new state of every vertex and triangle slot that is not as it was.
-/// A vertex comes in the same or an earlier delta than the first triangle that uses it.
+/// What changed in the mesh since the delta before it: the new state of every vertex and triangle slot that is not as
+/// it was. A vertex comes in the same or an earlier delta than the first triangle that uses it.
 struct MeshDelta {
   int64_t utime_us = 0;  ///< Time of the last stripe folded in.
   int32_t scan = 0;
@@ -48,15 +47,15 @@ struct MeshDelta {
 struct MeshScan {
   int64_t utime_us = 0;
   int32_t scan = 0;
-  int32_t stripes = 0;             ///< Of this scan.
-  int64_t points = 0;              ///< Of this scan, with a return.
-  int64_t refused = 0;             ///< Measurements refused so far (not finite, negative, bad pose, stripe twice).
+  int32_t stripes = 0;  ///< Of this scan.
+  int64_t points = 0;   ///< Of this scan, with a return.
+  int64_t refused = 0;  ///< Measurements refused so far (not finite, negative, bad pose, stripe twice).
   int64_t vertices = 0;
   int64_t triangles = 0;
-  int64_t edges = 0;               ///< n_total of eq. 3.
-  int64_t border_edges = 0;        ///< n_border of eq. 3.
-  double rim_length_m = 0.0;       ///< Sum of the lengths of the border edges.
-  double completeness = 0.0;       ///< Eq. 3: 1 - n_border / n_total; 0 without edges.
+  int64_t edges = 0;          ///< n_total of eq. 3.
+  int64_t border_edges = 0;   ///< n_border of eq. 3.
+  double rim_length_m = 0.0;  ///< Sum of the lengths of the border edges.
+  double completeness = 0.0;  ///< Eq. 3: 1 - n_border / n_total; 0 without edges.
 
   bool operator==(const MeshScan&) const = default;
 };

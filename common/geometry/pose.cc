@@ -32,7 +32,8 @@ double CalcAngleBetween(const Pose& X_WA, const Pose& X_WB) {
 }
 
 Pose MakeLookPose(const Eigen::Vector3d& p_WS, const Eigen::Vector3d& view_W, const Eigen::Vector3d& scan_W) {
-  if (view_W.norm() < 1e-9 || scan_W.norm() < 1e-9) throw std::invalid_argument("MakeLookPose: a direction of length 0");
+  if (view_W.norm() < 1e-9 || scan_W.norm() < 1e-9)
+    throw std::invalid_argument("MakeLookPose: a direction of length 0");
   const Eigen::Vector3d z = view_W.normalized();
   const Eigen::Vector3d y_raw = scan_W.normalized() - z * z.dot(scan_W.normalized());
   if (y_raw.norm() < 1e-6) throw std::invalid_argument("MakeLookPose: viewing and scan direction are parallel");

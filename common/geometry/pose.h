@@ -22,8 +22,8 @@ Pose Interpolate(const Pose& X_WA, const Pose& X_WB, double fraction);
 /// Smallest angle, radians in [0, pi], that turns one orientation into the other.
 double CalcAngleBetween(const Pose& X_WA, const Pose& X_WB);
 
-/// Sensor pose at `p_WS` whose z axis (viewing direction) is `view_W` and whose y axis (scan direction) is as near to `scan_W` as
-/// orthogonality allows. The x axis, along the stripe, follows: x = y cross z.
+/// Sensor pose at `p_WS` whose z axis (viewing direction) is `view_W` and whose y axis (scan direction) is as near to
+/// `scan_W` as orthogonality allows. The x axis, along the stripe, follows: x = y cross z.
 ///
 /// @throws std::invalid_argument if either direction is shorter than 1e-9 or they are parallel within 1e-6 rad.
 Pose MakeLookPose(const Eigen::Vector3d& p_WS, const Eigen::Vector3d& view_W, const Eigen::Vector3d& scan_W);

@@ -35,13 +35,14 @@ enum class Verdict : uint8_t {
 };
 inline constexpr int kVerdicts = 10;
 
-/// Names as in report.json and on the bus: first, boundary, hole, sphere; chosen, reachable, partly, blocked_by_obstacle, …
+/// Names as in report.json and on the bus: first, boundary, hole, sphere; chosen, reachable, partly,
+/// blocked_by_obstacle, …
 std::string_view ToString(CandidateSource source);
 std::string_view ToString(Verdict verdict);
 
 /// A proposed scan path. Candidates stay on the planner's stack over rounds until chosen or discarded.
 struct Candidate {
-  int32_t id = 0;         ///< Unique in the run, rising in order of creation.
+  int32_t id = 0;  ///< Unique in the run, rising in order of creation.
   CandidateSource source = CandidateSource::kFirst;
   int32_t born_scan = 0;  ///< The scan after which it was proposed.
   int32_t rank = 0;       ///< Order within its batch: class and position (the B method's rule).
@@ -55,7 +56,8 @@ struct RatedCandidate {
   Verdict verdict = Verdict::kNotTried;
 };
 
-/// One point of a trajectory. Between two points the flange moves straight and turns evenly, or, with joints, the joints move linearly.
+/// One point of a trajectory. Between two points the flange moves straight and turns evenly, or, with joints, the
+/// joints move linearly.
 struct TrajectoryPoint {
   int64_t time_us = 0;  ///< Since the start of the trajectory; strictly rising.
   Pose X_WF = Pose::Identity();
@@ -85,7 +87,7 @@ struct Execution {
   int64_t utime_us = 0;  ///< When it ended.
   int32_t scan = 0;
   bool done = false;
-  std::string refusal;   ///< Why it was not executed; empty when done.
+  std::string refusal;  ///< Why it was not executed; empty when done.
 };
 
 /// What the coordinator asks of the planner.
@@ -130,8 +132,8 @@ struct PlanTiming {
   double update_s = 0.0;      ///< Replicas and distance field.
   double candidates_s = 0.0;  ///< Boundary search or hole detection.
   double gain_s = 0.0;
-  double motion_s = 0.0;      ///< Reachability and motion planning.
-  double total_s = 0.0;       ///< From the request to the answer.
+  double motion_s = 0.0;  ///< Reachability and motion planning.
+  double total_s = 0.0;   ///< From the request to the answer.
 };
 
 enum class RunPhase : uint8_t { kPlanning = 0, kScanning = 1, kFinished = 2 };
@@ -142,9 +144,10 @@ struct RunState {
   int32_t scan = 0;  ///< Planned or scanned now; the number of scans when finished.
   RunPhase phase = RunPhase::kPlanning;
   PlanMode mode = PlanMode::kFirst;
-  bool failed = false;     ///< Finished because something broke; the exit code is then 2.
-  std::string end_reason;  ///< Set when finished: completeness_reached, scan_limit, nothing_reachable, no_candidates, refused.
-  std::string detail;      ///< One sentence.
+  bool failed = false;  ///< Finished because something broke; the exit code is then 2.
+  std::string
+      end_reason;  ///< Set when finished: completeness_reached, scan_limit, nothing_reachable, no_candidates, refused.
+  std::string detail;  ///< One sentence.
 };
 
 }  // namespace nbs

@@ -12,9 +12,10 @@
 
 namespace nbs {
 
-/// Everything that travels on a stream. Each alternative has exactly one channel and one sender (common/messages/wiring.h).
-using Message = std::variant<PlanRequest, Trajectory, RunState, RobotState, Execution, Profile, Stripe, MeshDelta, MeshScan, VoxelDelta, Plan,
-                             CandidateSet, PlanTiming>;
+/// Everything that travels on a stream. Each alternative has exactly one channel and one sender
+/// (common/messages/wiring.h).
+using Message = std::variant<PlanRequest, Trajectory, RunState, RobotState, Execution, Profile, Stripe, MeshDelta,
+                             MeshScan, VoxelDelta, Plan, CandidateSet, PlanTiming>;
 
 /// Number of the stream that carries messages of type T: the alternative's index in Message.
 template <typename T>
@@ -31,9 +32,10 @@ using Outbox = std::vector<Message>;
 
 /// A service without the bus: a deterministic fold over its input streams.
 ///
-/// A node is a process of a Kahn network (Kahn, "The semantics of a simple language for parallel programming", IFIP 1974): it names the one stream
-/// that it reads next, and that choice depends only on what it has read before. The order of arrival of messages on different streams, and when they
-/// come, therefore never reaches its results: the same streams in give the same streams out, live, late, after a crash or from a log.
+/// A node is a process of a Kahn network (Kahn, "The semantics of a simple language for parallel programming", IFIP
+/// 1974): it names the one stream that it reads next, and that choice depends only on what it has read before. The
+/// order of arrival of messages on different streams, and when they come, therefore never reaches its results: the same
+/// streams in give the same streams out, live, late, after a crash or from a log.
 class Node {
  public:
   virtual ~Node() = default;

@@ -9,19 +9,20 @@ namespace nbs {
 
 /// A laser stripe profiler after the triangulation principle.
 ///
-/// Sensor frame S: origin at the laser's emitter; z is the viewing direction (the fan's middle), x lies along the stripe, y is the normal of the
-/// light plane and the nominal scan direction. The camera stands at (0, camera_baseline_m, 0) in S and sees the light plane from there.
+/// Sensor frame S: origin at the laser's emitter; z is the viewing direction (the fan's middle), x lies along the
+/// stripe, y is the normal of the light plane and the nominal scan direction. The camera stands at (0,
+/// camera_baseline_m, 0) in S and sees the light plane from there.
 struct Profiler {
-  int points = 224;                   ///< Beams a stripe, >= 2.
-  double rate_hz = 25.0;              ///< Stripes a second.
-  double fan_rad = 0.872664625997165; ///< Full angle between first and last beam (50 degrees).
-  double min_depth_m = 0.150;         ///< Depth of field: of the point's z in S.
+  int points = 224;                    ///< Beams a stripe, >= 2.
+  double rate_hz = 25.0;               ///< Stripes a second.
+  double fan_rad = 0.872664625997165;  ///< Full angle between first and last beam (50 degrees).
+  double min_depth_m = 0.150;          ///< Depth of field: of the point's z in S.
   double max_depth_m = 0.500;
-  double standoff_m = 0.325;          ///< Working distance.
-  double sigma_base_m = 5e-5;         ///< Noise along the beam: sigma(z) = sigma_base + sigma_per_m * z^2.
-  double sigma_per_m = 2e-3;          ///< 1/m.
+  double standoff_m = 0.325;                      ///< Working distance.
+  double sigma_base_m = 5e-5;                     ///< Noise along the beam: sigma(z) = sigma_base + sigma_per_m * z^2.
+  double sigma_per_m = 2e-3;                      ///< 1/m.
   double max_incidence_rad = 1.2217304763960306;  ///< 70 degrees: a surface seen more obliquely gives no return.
-  double camera_baseline_m = 0.0;     ///< 0: the camera's line of sight is not modelled, and frees nothing.
+  double camera_baseline_m = 0.0;                 ///< 0: the camera's line of sight is not modelled, and frees nothing.
   double scan_speed_m_per_s = 0.05;
 
   bool operator==(const Profiler&) const = default;
@@ -49,8 +50,8 @@ struct Profile {
 struct Stripe {
   int64_t utime_us = 0;
   int32_t scan = 0;
-  int32_t index = 0;            ///< Number within the scan, from 0.
-  bool end_of_scan = false;     ///< True: closes the scan and has no ranges.
+  int32_t index = 0;         ///< Number within the scan, from 0.
+  bool end_of_scan = false;  ///< True: closes the scan and has no ranges.
   Pose X_WS = Pose::Identity();
   std::vector<float> ranges_m;  ///< Along the beam, from the emitter; 0: no return, or out of the depth of field.
 };
