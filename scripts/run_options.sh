@@ -1,0 +1,71 @@
+# The options that describe a run, shared by scan and launch. Sourced after lib.sh.
+# shellcheck shell=bash
+
+print_run_options() {
+  cat <<'USAGE'
+  --object NAME|FILE     statue (made by the project; default) or a mesh of your own: PLY, STL, OBJ, in metres
+  --method METHOD        BH/IG (default), B/IG, B, S/IG, S
+  --cell NAME            a cell of sim/cells, or a file (default: free)
+  --completeness C       wanted mesh completeness, 0 to 1 (default: 0.9875)
+  --max-scans N          ends after that many scans (default: 30)
+  --seed N               the same seed gives the same run, bit for bit (default: 1)
+  --rate max|realtime    as fast as the machine can (default), or as the robot would move
+  --out DIR              the run folder (default: runs/<object>-<method>-seed<seed>-<time>)
+USAGE
+}
+
+nbs_prepare_options=()
+run_object=statue
+run_method=BH/IG
+run_seed=1
+run_out=
+
+# take_run_option OPTION VALUE: true if it is one of them.
+take_run_option() {
+  case $1 in
+    --object) run_object=$2 ;;
+    --method) run_method=$2 ;;
+    --seed) run_seed=$2 ;;
+    --out) run_out=$2 && return ;;
+    --cell | --completeness | --max-scans | --rate) ;;
+    *) return 1 ;;
+  esac
+  nbs_prepare_options+=("$1" "$2")
+}
+
+# A fresh folder under runs/ for a run without --out.
+default_out() {
+  local object=${run_object##*/} base
+  object=${object%.*}
+  base=$nbs_root/runs/${object:-object}-${run_method//\//-}-seed$run_seed-$(date +%Y%m%d-%H%M%S)
+  local out=$base number=1
+  while ! { mkdir -p "$nbs_root/runs" && mkdir "$out"; } 2>/dev/null; do
+    [[ -e $out ]] || fail "cannot make the run folder $out"
+    out=$base-$((++number))
+  done
+  printf '%s\n' "$out"
+}
+
+# check_space FOLDER: a run needs room for its streams, its log and its results.
+check_space() {
+  local folder=$1 free needed_mb=300
+  while [[ ! -e $folder ]]; do folder=$(dirname "$folder"); done
+  free=$(df --output=avail -m "$folder" | tail -n 1)
+  ((free >= needed_mb)) || fail "only $((free)) MB are free in $folder: a run needs about $needed_mb MB"
+}
+
+# prepare_run: checks the options and makes the run folder with run.yaml; sets nbs_run.
+prepare_run() {
+  check_space "$(canonical "${run_out:-$nbs_root/runs}")"
+  local made=
+  if [[ -z $run_out ]]; then
+    run_out=$(default_out)
+    made=$run_out
+  fi
+  if ! "$nbs_bin/nbs-prepare" "${nbs_prepare_options[@]}" --out "$run_out"; then
+    [[ -z $made ]] || rm -rf "$made"
+    exit 1
+  fi
+  nbs_run=$(canonical "$run_out")
+  mkdir -p "$nbs_run/logs"
+}

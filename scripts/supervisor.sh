@@ -1,0 +1,129 @@
+# Starts services, restarts what dies, stops everything. Sourced after lib.sh and bus.sh; the caller sets nbs_run and nbs_url.
+# shellcheck shell=bash
+
+declare -A nbs_service_of=()   # process number -> service
+declare -A nbs_deaths=()       # service -> seconds of its deaths
+nbs_give_up_deaths=5           # this many deaths …
+nbs_give_up_seconds=30         # … within this time end the run
+nbs_stop_seconds=10            # after a TERM; then KILL
+
+# note TEXT: a line in RUN/logs/supervisor.log.
+note() { printf '%(%F %T)T %s\n' -1 "$*" >>"$nbs_run/logs/supervisor.log" 2>/dev/null || true; }
+
+# start_service NAME: nbs-NAME in a session of its own (a Ctrl-C reaches only the supervisor), killed by the kernel should the supervisor itself be killed.
+# The reporter's lines are the terminal's; everything else goes to RUN/logs/NAME.log.
+start_service() {
+  local name=$1 log=$nbs_run/logs/$1.log
+  local extra=()
+  # For tests: more options for every service.
+  read -ra extra <<<"${NBS_SERVICE_OPTIONS:-}"
+  local command=(setsid setpriv --pdeathsig KILL -- "$nbs_bin/nbs-$name" --run "$nbs_run" --lcm-url "$nbs_url" "${extra[@]}")
+  if [[ $name == reporter ]]; then
+    "${command[@]}" 2>>"$log" </dev/null &
+  else
+    "${command[@]}" >>"$log" 2>&1 </dev/null &
+  fi
+  nbs_service_of[$!]=$name
+  note "started $name, process $!"
+}
+
+# start_services NAME…
+start_services() {
+  local name
+  for name in "$@"; do
+    [[ -x $nbs_bin/nbs-$name ]] || fail "$nbs_bin/nbs-$name is missing: run scripts/build"
+  done
+  for name in "$@"; do start_service "$name"; done
+}
+
+# stop_services: TERM to all, KILL to those that do not listen; returns when none is left.
+stop_services() {
+  local pid deadline=$((SECONDS + nbs_stop_seconds))
+  for pid in "${!nbs_service_of[@]}"; do kill -TERM "$pid" 2>/dev/null || true; done
+  while ((${#nbs_service_of[@]})); do
+    for pid in "${!nbs_service_of[@]}"; do
+      if ! kill -0 "$pid" 2>/dev/null; then
+        unset "nbs_service_of[$pid]"
+      elif ((SECONDS >= deadline)); then
+        say "supervisor: ${nbs_service_of[$pid]} does not stop: killed"
+        note "killed ${nbs_service_of[$pid]}, which did not stop"
+        kill -KILL "$pid" 2>/dev/null || true
+      fi
+    done
+    sleep 0.02
+  done
+  note "all services stopped"
+}
+
+# last_words NAME: the last line of its log, or what a full disk leaves of it.
+last_words() {
+  local free
+  free=$(df --output=avail -k "$nbs_run" 2>/dev/null | tail -n 1) || free=
+  if [[ -n $free ]] && ((free < 1024)); then
+    printf 'no space left on the disk of %s' "$nbs_run"
+    return
+  fi
+  tail -n 1 "$nbs_run/logs/$1.log" 2>/dev/null || true
+}
+
+# died_too_often NAME: notes a death; true when there were too many in quick succession.
+died_too_often() {
+  local name=$1 now=$SECONDS second recent=()
+  for second in ${nbs_deaths[$name]:-} "$now"; do
+    ((now - second < nbs_give_up_seconds)) && recent+=("$second")
+  done
+  nbs_deaths[$name]=${recent[*]}
+  ((${#recent[@]} >= nbs_give_up_deaths))
+}
+
+# handle_end PID CODE: what follows from the end of a process. Returns 0 to go on; otherwise the exit code of the run.
+handle_end() {
+  local name=${nbs_service_of[$1]:-} code=$2
+  [[ -n $name ]] || return 0
+  unset "nbs_service_of[$1]"
+  if ((code == 0)); then
+    note "$name has finished"
+    return 0
+  fi
+  if ((code < 128)); then
+    say "supervisor: $name ended with exit code $code: $(last_words "$name")"
+    note "$name ended with exit code $code"
+    ((code == 1)) && return 1
+    return 2
+  fi
+  local signal
+  signal=$(kill -l $((code - 128)) 2>/dev/null) || signal=$((code - 128))
+  if died_too_often "$name"; then
+    say "supervisor: $name died $nbs_give_up_deaths times within $nbs_give_up_seconds s (signal $signal): giving up (see $nbs_run/logs/$name.log)"
+    note "$name died of signal $signal, too often: giving up"
+    return 2
+  fi
+  start_service "$name"
+  say "supervisor: $name died of signal $signal; started again"
+  note "$name died of signal $signal; started again"
+}
+
+# supervise NAME: keeps the services running until NAME has finished (or, with NAME empty, all have). Returns 0, or the exit code of a run that failed.
+supervise() {
+  local until_name=$1 pid code name result
+  while ((${#nbs_service_of[@]})); do
+    pid= code=0
+    # Bash reports a child that died of a signal on its own stderr as well: once is enough.
+    { wait -n -p pid "${!nbs_service_of[@]}" || code=$?; } 2>/dev/null
+    [[ -n $pid ]] || continue
+    name=${nbs_service_of[$pid]:-}
+    result=0
+    handle_end "$pid" "$code" || result=$?
+    ((result == 0)) || return "$result"
+    if ((code == 0)) && [[ $name == "$until_name" ]]; then return 0; fi
+  done
+}
+
+# write_report: folds RUN/streams into the run's results, also after a run that was cut short. Out of a Ctrl-C's reach.
+write_report() {
+  local code=0
+  setsid -w setpriv --pdeathsig KILL -- "$nbs_bin/nbs-reporter" --run "$nbs_run" --offline 2>>"$nbs_run/logs/reporter.log" </dev/null || code=$?
+  if ((code == 0)); then return; fi
+  say "the report could not be written: $(last_words reporter)"
+  return 2
+}

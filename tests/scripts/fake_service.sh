@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Stands in for every executable of the project in the tests of the scripts: a service that runs until RUN/finish exists, and does what RUN/<service>.order
+# says: "exit CODE SENTENCE".
+set -euo pipefail
+name=$(basename "$0")
+name=${name#nbs-}
+run= out= url= offline= options="$*"
+while (($#)); do
+  case $1 in
+    --run) run=$2 ;;
+    --out) out=$2 ;;
+    --lcm-url) url=$2 ;;
+    --offline) offline=yes ;;
+  esac
+  shift
+done
+
+if [[ $name == prepare ]]; then
+  [[ $options != *--method\ BAD* ]] || { echo 'unknown method `BAD`' >&2 && exit 1; }
+  mkdir -p "$out"
+  echo "name: fake" >"$out/run.yaml"
+  exit 0
+fi
+if [[ -n $offline ]]; then
+  echo '{}' >"$run/report.json"
+  echo 'report written'
+  exit 0
+fi
+
+trap 'exit 0' TERM
+echo "$$ $url" >>"$run/$name.starts"
+[[ $name != reporter ]] || echo 'scan 0'
+while [[ ! -e $run/finish ]]; do
+  if [[ -e $run/$name.order ]]; then
+    read -r code sentence <"$run/$name.order"
+    echo "$sentence" >&2
+    ((code < 128)) || kill -KILL $$
+    exit "$code"
+  fi
+  sleep 0.02
+done
