@@ -1,0 +1,124 @@
+#include "services/coordinator/run_logic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "common/runtime/error.h"
+
+namespace nbs {
+namespace {
+
+void CheckAwaited(const RunLogicState& state, Awaiting awaited, int32_t scan, std::string_view what) {
+  if (state.awaiting == awaited && state.scan == scan) return;
+  throw std::logic_error(fmt::format("coordinator: {} of scan {} is not what scan {} awaits", what, scan, state.scan));
+}
+
+RunStep Finish(RunLogicState state, int32_t scans, bool failed, std::string end_reason, std::string detail) {
+  state.awaiting = Awaiting::kNothing;
+  RunState finished{++state.utime_us, scans, RunPhase::kFinished, state.mode, failed, std::move(end_reason),
+                    std::move(detail)};
+  return {state, {std::move(finished)}};
+}
+
+RunStep AskForPlan(RunLogicState state, int32_t scan, PlanMode mode) {
+  state.awaiting = Awaiting::kPlan;
+  state.scan = scan;
+  state.mode = mode;
+  ++state.utime_us;
+  return {state,
+          {RunState{state.utime_us, scan, RunPhase::kPlanning, mode, false, {}, {}},
+           PlanRequest{state.utime_us, scan, mode}}};
+}
+
+RunStep Execute(RunLogicState state, const Plan& plan) {
+  state.awaiting = Awaiting::kExecution;
+  Trajectory trajectory = plan.trajectory;
+  trajectory.utime_us = ++state.utime_us;
+  trajectory.scan = state.scan;
+  return {
+      state,
+      {RunState{state.utime_us, state.scan, RunPhase::kScanning, state.mode, false, {}, {}}, std::move(trajectory)}};
+}
+
+RunStep GiveUp(const RunLogicState& state, const Plan& plan) {
+  const bool first = state.mode == PlanMode::kFirst;
+  const bool no_candidates = plan.reason.find(kStackIsEmpty) != std::string::npos;
+  return Finish(state, state.scan, first, no_candidates ? "no_candidates" : "nothing_reachable", plan.reason);
+}
+
+PlanMode ChooseMode(const RunSettings& settings, const RunLogicState& state) {
+  if (!settings.holes) return PlanMode::kBoundary;
+  const bool settled = state.settled >= settings.settled_scans;
+  return state.mode == PlanMode::kHole || settled ? PlanMode::kHole : PlanMode::kBoundary;
+}
+
+}  // namespace
+
+RunSettings MakeRunSettings(const RunConfig& config) {
+  if (config.method != "BH/IG" && config.method != "B/IG") {
+    throw ConfigError("Unknown method \"" + config.method + "\": choose BH/IG or B/IG.");
+  }
+  RunSettings settings;
+  settings.completeness = config.completeness;
+  settings.max_scans = config.max_scans;
+  settings.holes = config.method == "BH/IG";
+  return settings;
+}
+
+bool HasHardlyChanged(const RunSettings& settings, const MeshScan& before, const MeshScan& after) {
+  const double missing = 1.0 - before.completeness;
+  const double closed = after.completeness - before.completeness;
+  const auto grown = static_cast<double>(after.edges - before.edges);
+  return closed < settings.settled_closing * missing &&
+         grown < settings.settled_growth * static_cast<double>(before.edges);
+}
+
+RunStep Begin(const RunSettings& /*settings*/) { return AskForPlan({}, 0, PlanMode::kFirst); }
+
+RunStep Advance(const RunSettings& settings, const RunLogicState& state, const Plan& plan) {
+  CheckAwaited(state, Awaiting::kPlan, plan.scan, "a plan");
+  if (plan.mode != state.mode) throw std::logic_error("coordinator: the plan is of another mode than asked for");
+  RunLogicState next = state;
+  next.utime_us = std::max(next.utime_us, plan.utime_us);
+  if (plan.found) return Execute(std::move(next), plan);
+  if (state.mode == PlanMode::kBoundary && settings.holes)
+    return AskForPlan(std::move(next), state.scan, PlanMode::kHole);
+  return GiveUp(next, plan);
+}
+
+RunStep Advance(const RunSettings& /*settings*/, const RunLogicState& state, const Execution& execution) {
+  CheckAwaited(state, Awaiting::kExecution, execution.scan, "an execution");
+  RunLogicState next = state;
+  next.utime_us = std::max(next.utime_us, execution.utime_us);
+  if (!execution.done) return Finish(std::move(next), state.scan, true, "refused", execution.refusal);
+  next.awaiting = Awaiting::kMeshScan;
+  return {next, {}};
+}
+
+RunStep Advance(const RunSettings& settings, const RunLogicState& state, const MeshScan& mesh) {
+  CheckAwaited(state, Awaiting::kMeshScan, mesh.scan, "a mesh");
+  RunLogicState next = state;
+  next.utime_us = std::max(next.utime_us, mesh.utime_us);
+  const bool hardly =
+      state.last_scan && state.mode == PlanMode::kBoundary && HasHardlyChanged(settings, *state.last_scan, mesh);
+  next.settled = hardly ? state.settled + 1 : 0;
+  next.last_scan = mesh;
+  const int32_t scans = state.scan + 1;
+  if (scans >= settings.min_scans && mesh.completeness >= settings.completeness) {
+    return Finish(std::move(next), scans, false, "completeness_reached",
+                  fmt::format("Mesh completeness {:.4f} of {:.4f} wanted.", mesh.completeness, settings.completeness));
+  }
+  if (scans >= settings.max_scans) {
+    return Finish(std::move(next), scans, false, "scan_limit",
+                  fmt::format("{} scans done; mesh completeness {:.4f} of {:.4f} wanted.", scans, mesh.completeness,
+                              settings.completeness));
+  }
+  const PlanMode mode = ChooseMode(settings, next);
+  return AskForPlan(std::move(next), scans, mode);
+}
+
+}  // namespace nbs

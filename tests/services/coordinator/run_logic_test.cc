@@ -1,0 +1,194 @@
+#include "services/coordinator/run_logic.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "common/runtime/error.h"
+
+namespace nbs {
+namespace {
+
+const RunSettings kSettings;
+
+template <typename T>
+const T& Find(const RunStep& step) {
+  for (const Message& message : step.commands) {
+    if (const T* found = std::get_if<T>(&message)) return *found;
+  }
+  throw std::runtime_error("no such command");
+}
+
+Plan MakePlan(int scan, PlanMode mode, bool found, std::string reason = {}) {
+  Plan plan;
+  plan.utime_us = 100;
+  plan.scan = scan;
+  plan.mode = mode;
+  plan.found = found;
+  plan.reason = std::move(reason);
+  if (found) plan.trajectory = {0, scan, {{0, Pose::Identity(), {}, true}}};
+  return plan;
+}
+
+MeshScan MakeMesh(int scan, double completeness, int64_t edges = 10'000) {
+  MeshScan mesh;
+  mesh.utime_us = 900;
+  mesh.scan = scan;
+  mesh.completeness = completeness;
+  mesh.edges = edges;
+  return mesh;
+}
+
+// A state that awaits `awaiting` of scan `scan`.
+RunLogicState MakeState(Awaiting awaiting, int scan, PlanMode mode) {
+  RunLogicState state;
+  state.awaiting = awaiting;
+  state.scan = scan;
+  state.mode = mode;
+  state.utime_us = 50;
+  return state;
+}
+
+TEST(RunLogic, BeginsByAskingForTheFirstScanPath) {
+  const RunStep step = Begin(kSettings);
+  EXPECT_EQ(step.state.awaiting, Awaiting::kPlan);
+  EXPECT_EQ(Find<PlanRequest>(step).scan, 0);
+  EXPECT_EQ(Find<PlanRequest>(step).mode, PlanMode::kFirst);
+  EXPECT_EQ(Find<RunState>(step).phase, RunPhase::kPlanning);
+}
+
+TEST(RunLogic, AFoundPlanSendsItsTrajectoryAfterTheLatestTime) {
+  const RunStep step =
+      Advance(kSettings, MakeState(Awaiting::kPlan, 3, PlanMode::kBoundary), MakePlan(3, PlanMode::kBoundary, true));
+  EXPECT_EQ(step.state.awaiting, Awaiting::kExecution);
+  EXPECT_EQ(Find<Trajectory>(step).utime_us, 101);
+  EXPECT_EQ(Find<Trajectory>(step).scan, 3);
+  EXPECT_EQ(Find<Trajectory>(step).points.size(), 1u);
+  EXPECT_EQ(Find<RunState>(step).phase, RunPhase::kScanning);
+}
+
+TEST(RunLogic, NoBoundaryLeftAsksForTheSameScanAmongHoles) {
+  const RunStep step =
+      Advance(kSettings, MakeState(Awaiting::kPlan, 3, PlanMode::kBoundary), MakePlan(3, PlanMode::kBoundary, false));
+  EXPECT_EQ(step.state.awaiting, Awaiting::kPlan);
+  EXPECT_EQ(Find<PlanRequest>(step).scan, 3);
+  EXPECT_EQ(Find<PlanRequest>(step).mode, PlanMode::kHole);
+}
+
+TEST(RunLogic, NoBoundaryLeftEndsAMethodWithoutHoles) {
+  RunSettings settings;
+  settings.holes = false;
+  const std::string reason = "Among boundaries " + std::string(kStackIsEmpty) + ".";
+  const RunStep step = Advance(settings, MakeState(Awaiting::kPlan, 3, PlanMode::kBoundary),
+                               MakePlan(3, PlanMode::kBoundary, false, reason));
+  EXPECT_EQ(step.state.awaiting, Awaiting::kNothing);
+  EXPECT_EQ(Find<RunState>(step).end_reason, "no_candidates");
+  EXPECT_FALSE(Find<RunState>(step).failed);
+}
+
+TEST(RunLogic, NoHoleReachableEndsTheRunWithThePlannersReason) {
+  const RunStep step = Advance(kSettings, MakeState(Awaiting::kPlan, 7, PlanMode::kHole),
+                               MakePlan(7, PlanMode::kHole, false, "All blocked."));
+  EXPECT_EQ(step.state.awaiting, Awaiting::kNothing);
+  EXPECT_EQ(Find<RunState>(step).phase, RunPhase::kFinished);
+  EXPECT_EQ(Find<RunState>(step).scan, 7);
+  EXPECT_EQ(Find<RunState>(step).end_reason, "nothing_reachable");
+  EXPECT_EQ(Find<RunState>(step).detail, "All blocked.");
+  EXPECT_FALSE(Find<RunState>(step).failed);
+}
+
+TEST(RunLogic, AFirstPathThatCannotBeReachedFailsTheRun) {
+  const RunStep step = Advance(kSettings, Begin(kSettings).state, MakePlan(0, PlanMode::kFirst, false, "Blocked."));
+  EXPECT_TRUE(Find<RunState>(step).failed);
+  EXPECT_EQ(Find<RunState>(step).end_reason, "nothing_reachable");
+  EXPECT_EQ(Find<RunState>(step).scan, 0);
+}
+
+TEST(RunLogic, AnExecutedTrajectoryAwaitsTheMesh) {
+  const RunStep step =
+      Advance(kSettings, MakeState(Awaiting::kExecution, 3, PlanMode::kBoundary), Execution{800, 3, true, ""});
+  EXPECT_EQ(step.state.awaiting, Awaiting::kMeshScan);
+  EXPECT_EQ(step.state.utime_us, 800);
+  EXPECT_TRUE(step.commands.empty());
+}
+
+TEST(RunLogic, ARefusedTrajectoryFailsTheRun) {
+  const RunStep step = Advance(kSettings, MakeState(Awaiting::kExecution, 3, PlanMode::kBoundary),
+                               Execution{800, 3, false, "Too fast."});
+  EXPECT_EQ(step.state.awaiting, Awaiting::kNothing);
+  EXPECT_TRUE(Find<RunState>(step).failed);
+  EXPECT_EQ(Find<RunState>(step).end_reason, "refused");
+  EXPECT_EQ(Find<RunState>(step).detail, "Too fast.");
+  EXPECT_EQ(Find<RunState>(step).scan, 3);
+}
+
+TEST(RunLogic, ACompleteMeshEndsTheRun) {
+  const RunStep step = Advance(kSettings, MakeState(Awaiting::kMeshScan, 3, PlanMode::kBoundary), MakeMesh(3, 0.9875));
+  EXPECT_EQ(step.state.awaiting, Awaiting::kNothing);
+  EXPECT_EQ(Find<RunState>(step).end_reason, "completeness_reached");
+  EXPECT_EQ(Find<RunState>(step).scan, 4);
+  EXPECT_FALSE(Find<RunState>(step).failed);
+}
+
+TEST(RunLogic, TheFirstScanAloneDoesNotCompleteTheMesh) {
+  const RunStep step = Advance(kSettings, MakeState(Awaiting::kMeshScan, 0, PlanMode::kFirst), MakeMesh(0, 0.999));
+  EXPECT_EQ(Find<PlanRequest>(step).scan, 1);
+  EXPECT_EQ(Find<PlanRequest>(step).mode, PlanMode::kBoundary);
+}
+
+TEST(RunLogic, TheLimitOnScansEndsTheRun) {
+  RunSettings settings;
+  settings.max_scans = 4;
+  const RunStep step = Advance(settings, MakeState(Awaiting::kMeshScan, 3, PlanMode::kBoundary), MakeMesh(3, 0.9));
+  EXPECT_EQ(Find<RunState>(step).end_reason, "scan_limit");
+  EXPECT_EQ(Find<RunState>(step).scan, 4);
+}
+
+TEST(RunLogic, ALimitOfOneScanEndsTheRunAfterTheFirst) {
+  RunSettings settings;
+  settings.max_scans = 1;
+  const RunStep step = Advance(settings, MakeState(Awaiting::kMeshScan, 0, PlanMode::kFirst), MakeMesh(0, 0.999));
+  EXPECT_EQ(Find<RunState>(step).end_reason, "scan_limit");
+}
+
+TEST(RunLogic, HolesAreScannedForTheRestOfTheRun) {
+  const RunStep step = Advance(kSettings, MakeState(Awaiting::kMeshScan, 8, PlanMode::kHole), MakeMesh(8, 0.95));
+  EXPECT_EQ(Find<PlanRequest>(step).scan, 9);
+  EXPECT_EQ(Find<PlanRequest>(step).mode, PlanMode::kHole);
+}
+
+TEST(RunLogic, WhatIsNotAwaitedThrows) {
+  EXPECT_THROW(Advance(kSettings, MakeState(Awaiting::kMeshScan, 3, PlanMode::kBoundary),
+                       MakePlan(3, PlanMode::kBoundary, true)),
+               std::logic_error);
+  EXPECT_THROW(
+      Advance(kSettings, MakeState(Awaiting::kPlan, 3, PlanMode::kBoundary), MakePlan(2, PlanMode::kBoundary, true)),
+      std::logic_error);
+  EXPECT_THROW(
+      Advance(kSettings, MakeState(Awaiting::kPlan, 3, PlanMode::kBoundary), MakePlan(3, PlanMode::kHole, true)),
+      std::logic_error);
+  EXPECT_THROW(Advance(kSettings, MakeState(Awaiting::kPlan, 3, PlanMode::kBoundary), Execution{}), std::logic_error);
+  EXPECT_THROW(Advance(kSettings, MakeState(Awaiting::kPlan, 3, PlanMode::kBoundary), MeshScan{}), std::logic_error);
+}
+
+TEST(RunSettings, ComeFromTheRunsConfiguration) {
+  RunConfig config;
+  config.completeness = 0.9;
+  config.max_scans = 12;
+  config.method = "B/IG";
+  const RunSettings settings = MakeRunSettings(config);
+  EXPECT_EQ(settings.completeness, 0.9);
+  EXPECT_EQ(settings.max_scans, 12);
+  EXPECT_FALSE(settings.holes);
+  config.method = "BH/IG";
+  EXPECT_TRUE(MakeRunSettings(config).holes);
+}
+
+TEST(RunSettings, AnUnknownMethodIsAConfigurationError) {
+  RunConfig config;
+  config.method = "S/IG";
+  EXPECT_THROW(MakeRunSettings(config), ConfigError);
+}
+
+}  // namespace
+}  // namespace nbs
