@@ -12,10 +12,13 @@ namespace nbs {
 using NodeFactory = std::function<std::unique_ptr<Node>(const RunConfig&)>;
 
 /// The whole life of a service: reads the command line and RUN/run.yaml, makes the node, joins the bus, recovers what
-/// the streams' histories hold, folds until the node has finished or SIGINT/SIGTERM comes.
+/// the streams' histories hold, folds until the node has finished or SIGINT/SIGTERM comes. A service whose node has
+/// finished stays: others may need its history.
 ///
-/// Options: --run DIR (required); --lcm-url URL (default: LCM_DEFAULT_URL); --drop P --drop-seed N (test only: loses
-/// that share of datagrams).
+/// Options: --run DIR (required); --lcm-url URL (default: LCM_DEFAULT_URL); --without A,B (services that do not take
+/// part: their credit is not waited for);
+/// --exit-when-finished (ends once the node has finished and its outputs have been received); --drop P --drop-seed N
+/// (test only: loses that share of datagrams).
 ///
 /// @param service  Name in the wiring table; decides which streams are read and published.
 /// @returns The exit code: 0 finished or stopped by a signal; 1 bad input, in one sentence on stderr; 2 failed.

@@ -1,0 +1,29 @@
+#include "common/bus/window.h"
+
+#include <bit>
+
+namespace nbs {
+namespace {
+
+constexpr size_t kDatagramHeaderBytes =
+    400;  // IP, UDP and LCM headers, the channel's name, and the kernel's bookkeeping behind the data.
+constexpr size_t kSocketBufferBytes = 320;     // The kernel's descriptor of the datagram.
+constexpr size_t kLargestSingleBlock = 16384;  // Above, the kernel collects pages.
+constexpr size_t kPagesSlack = 5120;
+
+constexpr size_t kBulkWindow = 66000;   // One message of 60,000 B, or two of 30,000.
+constexpr size_t kSmallWindow = 16500;  // Seven stripes of 224 points.
+
+}  // namespace
+
+size_t EstimateKernelBytes(size_t payload_bytes) {
+  const size_t block = payload_bytes + kDatagramHeaderBytes;
+  return block <= kLargestSingleBlock ? std::bit_ceil(block) + kSocketBufferBytes : payload_bytes + kPagesSlack;
+}
+
+size_t CalcWindowBytes(std::string_view service) {
+  const bool bulk = service == "mesher" || service == "voxelmap" || service == "planner";
+  return bulk ? kBulkWindow : kSmallWindow;
+}
+
+}  // namespace nbs
