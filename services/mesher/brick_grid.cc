@@ -1,0 +1,76 @@
+#include "services/mesher/brick_grid.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace nbs {
+
+BrickGrid::BrickGrid(float cell_m) : inverse_cell_(1.0f / cell_m), keys_(1024, 0), values_(1024, kNone) {
+  if (!(cell_m >= 1e-4f)) throw std::invalid_argument("BrickGrid: cell of " + std::to_string(cell_m) + " m");
+}
+
+size_t BrickGrid::SlotOf(uint64_t key) const {
+  const size_t mask = keys_.size() - 1;
+  size_t slot = (key * 0x9e3779b97f4a7c15ull >> 20) & mask;
+  while (keys_[slot] != 0 && keys_[slot] != key + 1) slot = (slot + 1) & mask;
+  return slot;
+}
+
+int32_t BrickGrid::FindBrick(uint64_t key) const {
+  const size_t slot = SlotOf(key);
+  return keys_[slot] == 0 ? kNone : values_[slot];
+}
+
+int32_t BrickGrid::InsertBrick(uint64_t key) {
+  size_t slot = SlotOf(key);
+  if (keys_[slot] != 0) return values_[slot];
+  if (2 * (bricks_.size() + 1) > keys_.size()) {
+    Grow();
+    slot = SlotOf(key);
+  }
+  keys_[slot] = key + 1;
+  values_[slot] = static_cast<int32_t>(bricks_.size());
+  bricks_.emplace_back();
+  bricks_.back().heads.fill(kNone);
+  bricks_.back().rows.fill(0);
+  return values_[slot];
+}
+
+void BrickGrid::Grow() {
+  std::vector<uint64_t> keys(2 * keys_.size(), 0);
+  std::vector<int32_t> values(keys.size(), kNone);
+  keys.swap(keys_);
+  values.swap(values_);
+  for (size_t i = 0; i < keys.size(); ++i) {
+    if (keys[i] == 0) continue;
+    const size_t slot = SlotOf(keys[i] - 1);
+    keys_[slot] = keys[i];
+    values_[slot] = values[i];
+  }
+}
+
+int32_t& BrickGrid::Touch(const Eigen::Vector3f& p_W) {
+  const Cell cell = CellOf(p_W);
+  Brick& brick = bricks_[InsertBrick(KeyOf(cell.x() >> 3, cell.y() >> 3, cell.z() >> 3))];
+  const int x = cell.x() & 7, y = cell.y() & 7, z = cell.z() & 7;
+  brick.rows[8 * x + y] |= static_cast<uint8_t>(1u << z);
+  return brick.heads[64 * x + 8 * y + z];
+}
+
+int32_t BrickGrid::Find(const Eigen::Vector3f& p_W) const {
+  const Cell cell = CellOf(p_W);
+  const int32_t brick = FindBrick(KeyOf(cell.x() >> 3, cell.y() >> 3, cell.z() >> 3));
+  return brick == kNone ? kNone : bricks_[brick].heads[64 * (cell.x() & 7) + 8 * (cell.y() & 7) + (cell.z() & 7)];
+}
+
+void BrickGrid::Clear(const Eigen::Vector3f& p_W) {
+  const Cell cell = CellOf(p_W);
+  const int32_t number = FindBrick(KeyOf(cell.x() >> 3, cell.y() >> 3, cell.z() >> 3));
+  if (number == kNone) return;
+  Brick& brick = bricks_[number];
+  const int x = cell.x() & 7, y = cell.y() & 7, z = cell.z() & 7;
+  brick.rows[8 * x + y] &= static_cast<uint8_t>(~(1u << z));
+  brick.heads[64 * x + 8 * y + z] = kNone;
+}
+
+}  // namespace nbs

@@ -1,0 +1,213 @@
+#include "services/mesher/star_triangulation.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace nbs {
+namespace {
+
+LoopCorner MakeCorner(const Vertex& v) { return {v.p_W, v.normal_W}; }
+
+float CalcCircumradius(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
+  const Eigen::Vector3f u = b - a, v = c - a;
+  return 0.5f * u.norm() * v.norm() * (u - v).norm() / u.cross(v).norm();
+}
+
+}  // namespace
+
+bool StarTriangulation::MayJoin(const Vertex& a, const Vertex& b) const {
+  const Eigen::Vector3f d = b.p_W - a.p_W;
+  const float squared_length = d.squaredNorm();
+  if (squared_length > settings_.max_edge_m * settings_.max_edge_m || squared_length == 0.0f) return false;
+  if (a.normal_W.dot(b.normal_W) < std::cos(settings_.max_normal_angle_rad)) return false;
+  const float length = std::sqrt(squared_length);
+  const float slope = std::abs(d.dot((a.normal_W + b.normal_W).normalized()));
+  constexpr float kSteepest = 0.95f;  // Towards either normal; beyond, no direction along the plane is left.
+  return slope <= settings_.max_slope * length && std::abs(d.dot(a.normal_W)) <= kSteepest * length &&
+         std::abs(d.dot(b.normal_W)) <= kSteepest * length;
+}
+
+void StarTriangulation::Update(std::span<const uint32_t> due, VertexStore& vertices) {
+  for (uint32_t id : due) {
+    RemoveFillingsAt(id);
+    MakeStar(id, vertices);
+  }
+  for (uint32_t id : due) RemoveDisagreed(id, vertices);
+  for (uint32_t id : due) InsertAgreed(id, vertices);
+  touched_.insert(touched_.end(), due.begin(), due.end());
+  std::sort(touched_.begin(), touched_.end());
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  std::vector<uint32_t> touched;
+  touched.swap(touched_);
+  for (uint32_t id : touched) {
+    if (vertices[id].state == Vertex::State::kReal) FillLoopsAt(id, vertices);
+  }
+  touched_.clear();
+}
+
+void StarTriangulation::Detach(uint32_t id) {
+  while (!topology_.TrianglesAt(id).empty()) {
+    const uint32_t slot = topology_.TrianglesAt(id).front();
+    if (topology_.group(slot) == kAgreed) {
+      RemoveTriangle(slot);
+    } else {
+      RemoveFilling(topology_.group(slot));
+    }
+  }
+}
+
+void StarTriangulation::MakeStar(uint32_t id, VertexStore& vertices) {
+  Vertex& v = vertices[id];
+  candidates_.clear();
+  vertices.ForEachNear(v.p_W, settings_.max_edge_m, [&](uint32_t other) {
+    const Vertex& w = vertices[other];
+    if (other != id && w.state == Vertex::State::kReal && MayJoin(v, w)) candidates_.push_back({other, w.p_W});
+  });
+  v.star = CalcLocalStar(v.p_W, v.normal_W, candidates_, scratch_);
+}
+
+bool StarTriangulation::HasGoodShape(const MeshTopology::Triangle& t, const VertexStore& vertices) const {
+  const Vertex &a = vertices[t[0]], &b = vertices[t[1]], &c = vertices[t[2]];
+  return CalcCircumradius(a.p_W, b.p_W, c.p_W) <= settings_.max_circumradius_m &&
+         FacesItsNormals(MakeCorner(a), MakeCorner(b), MakeCorner(c));
+}
+
+bool StarTriangulation::IsAgreed(const MeshTopology::Triangle& t, const VertexStore& vertices) const {
+  for (int i = 0; i < 3; ++i) {
+    const Vertex& v = vertices[t[i]];
+    if (v.state != Vertex::State::kReal || v.star.FindNext(t[(i + 1) % 3]) != t[(i + 2) % 3]) return false;
+  }
+  return HasGoodShape(t, vertices);
+}
+
+void StarTriangulation::RemoveDisagreed(uint32_t id, const VertexStore& vertices) {
+  const std::span<const uint32_t> fan = topology_.TrianglesAt(id);
+  const std::vector<uint32_t> slots(fan.begin(), fan.end());
+  for (uint32_t slot : slots) {
+    if (topology_.group(slot) == kAgreed && !IsAgreed(topology_.triangles()[slot], vertices)) RemoveTriangle(slot);
+  }
+}
+
+void StarTriangulation::InsertAgreed(uint32_t id, const VertexStore& vertices) {
+  const LocalStar& star = vertices[id].star;
+  const int pairs = star.closed ? star.degree : star.degree - 1;
+  for (int i = 0; i < pairs; ++i) {
+    uint32_t a = star.neighbours[i], b = star.neighbours[(i + 1) % star.degree];
+    MeshTopology::Triangle t{id, a, b};
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    const uint32_t present = topology_.Find(id, a);
+    if (present != MeshTopology::kNone && topology_.group(present) == kAgreed) continue;
+    if (!IsAgreed(t, vertices)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t taken = topology_.Find(t[k], t[(k + 1) % 3]);
+      if (taken != MeshTopology::kNone) RemoveFilling(topology_.group(taken));
+    }
+    topology_.Insert(t, kAgreed);
+    touched_.insert(touched_.end(), t.begin(), t.end());
+  }
+}
+
+void StarTriangulation::RemoveTriangle(uint32_t slot) {
+  const MeshTopology::Triangle& t = topology_.triangles()[slot];
+  touched_.insert(touched_.end(), t.begin(), t.end());
+  topology_.Remove(slot);
+}
+
+void StarTriangulation::RemoveFillingsAt(uint32_t id) {
+  for (bool found = true; found;) {
+    found = false;
+    for (uint32_t slot : topology_.TrianglesAt(id)) {
+      if (topology_.group(slot) == kAgreed) continue;
+      RemoveFilling(topology_.group(slot));
+      found = true;
+      break;
+    }
+  }
+}
+
+void StarTriangulation::RemoveFilling(int32_t group) {
+  for (uint32_t slot : fillings_[group]) RemoveTriangle(slot);
+  fillings_[group].clear();
+  free_fillings_.push_back(group);
+}
+
+uint32_t StarTriangulation::FindLoopNext(uint32_t from, uint32_t at, const VertexStore& vertices,
+                                         std::vector<uint32_t>& successors) const {
+  topology_.FindBorderSuccessors(at, successors);
+  if (successors.size() == 1) return successors[0];
+  // Several gaps meet here: the gap on the left of the way in ends at the first border clockwise from the way back.
+  const Vertex& v = vertices[at];
+  const Eigen::Vector3f x_W = v.normal_W.unitOrthogonal();
+  const Eigen::Vector3f y_W = v.normal_W.cross(x_W);
+  const auto angle_of = [&](uint32_t id) {
+    const Eigen::Vector3f d = vertices[id].p_W - v.p_W;
+    return std::atan2(d.dot(y_W), d.dot(x_W));
+  };
+  const float back = angle_of(from);
+  uint32_t best = MeshTopology::kNone;
+  float best_turn = std::numeric_limits<float>::max();
+  for (uint32_t id : successors) {
+    float turn = back - angle_of(id);
+    while (turn <= 0.0f) turn += 2.0f * std::numbers::pi_v<float>;
+    if (turn < best_turn || (turn == best_turn && id < best)) {
+      best = id;
+      best_turn = turn;
+    }
+  }
+  return best;
+}
+
+bool StarTriangulation::FindLoop(uint32_t start, uint32_t second, const VertexStore& vertices,
+                                 std::vector<uint32_t>& loop) const {
+  std::vector<uint32_t> successors;
+  loop.assign({start});
+  uint32_t from = start, at = second;
+  while (at != start) {
+    if (at == MeshTopology::kNone || static_cast<int>(loop.size()) == settings_.max_loop_edges) return false;
+    if (std::find(loop.begin(), loop.end(), at) != loop.end()) return false;
+    loop.push_back(at);
+    const uint32_t next = FindLoopNext(from, at, vertices, successors);
+    from = at;
+    at = next;
+  }
+  return loop.size() >= 3;
+}
+
+void StarTriangulation::FillLoopsAt(uint32_t id, const VertexStore& vertices) {
+  std::vector<uint32_t> successors, loop;
+  topology_.FindBorderSuccessors(id, successors);
+  std::sort(successors.begin(), successors.end());
+  for (uint32_t second : successors) {
+    if (topology_.Find(second, id) == MeshTopology::kNone || topology_.Find(id, second) != MeshTopology::kNone)
+      continue;
+    if (FindLoop(id, second, vertices, loop)) FillLoop(loop, vertices);
+  }
+}
+
+void StarTriangulation::FillLoop(std::span<const uint32_t> loop, const VertexStore& vertices) {
+  // Corner 0 is the smallest number, so that the filling does not depend on where the walk began.
+  std::vector<uint32_t> ring(loop.begin(), loop.end());
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+  std::vector<LoopCorner> corners;
+  for (uint32_t id : ring) corners.push_back(MakeCorner(vertices[id]));
+  const auto may_join = [&](uint32_t i, uint32_t j) {
+    return MayJoin(vertices[ring[i]], vertices[ring[j]]) && topology_.Find(ring[i], ring[j]) == MeshTopology::kNone &&
+           topology_.Find(ring[j], ring[i]) == MeshTopology::kNone;
+  };
+  const auto triangles = TriangulateLoop(corners, may_join);
+  if (triangles.empty()) return;
+  int32_t group = static_cast<int32_t>(fillings_.size());
+  if (free_fillings_.empty()) {
+    fillings_.emplace_back();
+  } else {
+    group = free_fillings_.back();
+    free_fillings_.pop_back();
+  }
+  for (const auto& t : triangles)
+    fillings_[group].push_back(topology_.Insert({ring[t[0]], ring[t[1]], ring[t[2]]}, group));
+}
+
+}  // namespace nbs

@@ -1,0 +1,274 @@
+#include "services/mesher/streaming_mesher.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nbs {
+
+StreamingMesher::StreamingMesher(const Profiler& profiler, const StreamingMesherSettings& settings)
+    : profiler_(profiler),
+      settings_(settings),
+      measurements_(settings.cell_m),
+      vertices_(settings.spacing_m),
+      triangulation_(settings.triangulation) {
+  for (const Eigen::Vector3d& d : CalcBeamDirections_S(profiler)) directions_S_.push_back(d.cast<float>());
+}
+
+bool StreamingMesher::IsAcceptable(const Stripe& stripe) const {
+  if (!stripe.end_of_scan) {
+    if (static_cast<int>(stripe.ranges_m.size()) != profiler_.points || !IsRigid(stripe.X_WS)) return false;
+    if (stripe.X_WS.translation().cwiseAbs().maxCoeff() > 0.5 * BrickGrid::kReach_m) return false;
+  }
+  if (stripe.scan < 0 || stripe.scan > 0xffff) return false;
+  if (!scan_begun_) return true;
+  if (stripe.scan != scan_.scan) return stripe.scan > scan_.scan;
+  return !scan_ended_ && stripe.index > last_index_;
+}
+
+bool StreamingMesher::AddStripe(const Stripe& stripe) {
+  if (!IsAcceptable(stripe)) {
+    ++counts_.refused_stripes;
+    return false;
+  }
+  if (!scan_begun_ || stripe.scan != scan_.scan) BeginScan(stripe.scan);
+  last_index_ = stripe.index;
+  scan_.utime_us = stripe.utime_us;
+  if (stripe.end_of_scan) {
+    EndScan();
+  } else {
+    ++scan_.stripes;
+    AddRanges(stripe);
+  }
+  return true;
+}
+
+void StreamingMesher::AddRanges(const Stripe& stripe) {
+  const Eigen::Matrix3f R_WS = stripe.X_WS.linear().cast<float>();
+  const Eigen::Vector3f p_WS = stripe.X_WS.translation().cast<float>();
+  for (size_t i = 0; i < stripe.ranges_m.size(); ++i) {
+    const float range = stripe.ranges_m[i];
+    if (range == 0.0f) continue;
+    const float depth = range * directions_S_[i].z();
+    if (!std::isfinite(range) || range < 0.0f || depth > 2.0 * profiler_.max_depth_m) {
+      ++counts_.refused_measurements;
+      continue;
+    }
+    const Eigen::Vector3f beam_W = R_WS * directions_S_[i];
+    ++scan_.points;
+    AddMeasurement({p_WS + range * beam_W, -beam_W, static_cast<float>(CalcRangeSigma(profiler_, depth))});
+  }
+}
+
+void StreamingMesher::BeginScan(int32_t scan) {
+  if (!scan_ended_) EndScan();
+  scan_.scan = scan;
+  scan_.stripes = 0;
+  scan_.points = 0;
+  scan_begun_ = true;
+  scan_ended_ = false;
+}
+
+void StreamingMesher::EndScan() {
+  Update();
+  for (uint32_t id = 0; id < vertices_.size(); ++id) {
+    if (vertices_[id].state == Vertex::State::kPending) vertices_.Remove(id);
+  }
+  scan_ended_ = true;
+}
+
+void StreamingMesher::AddMeasurement(const Measurement& m) {
+  measurements_.Insert(m);
+  uint32_t nearest = MeshTopology::kNone;
+  float nearest_squared = settings_.spacing_m * settings_.spacing_m;
+  vertices_.ForEachNear(m.p_W, settings_.spacing_m, [&](uint32_t id) {
+    Vertex& v = vertices_[id];
+    if (v.side_W().dot(m.view_W) <= 0.0f) return;
+    MarkForFit(id);
+    const float squared = (v.p_W - m.p_W).squaredNorm();
+    if (squared > nearest_squared || (squared == nearest_squared && id > nearest)) return;
+    nearest = id;
+    nearest_squared = squared;
+  });
+  if (nearest == MeshTopology::kNone) {
+    nearest = vertices_.Insert(m, scan_.scan);
+    MarkForFit(nearest);
+  }
+  Refine(nearest, m);
+}
+
+void StreamingMesher::Refine(uint32_t id, const Measurement& m) {
+  Vertex& v = vertices_[id];
+  v.view_sum_W += m.view_W;
+  v.information += 1.0f / (m.sigma_m * m.sigma_m);
+  v.measurements = std::min(v.measurements + 1, 0xffff);
+  v.last_scan = static_cast<uint16_t>(scan_.scan);
+  if (v.state == Vertex::State::kReal) v.best_cosine = std::max(v.best_cosine, v.normal_W.dot(m.view_W));
+}
+
+void StreamingMesher::MarkForFit(uint32_t id) {
+  if (vertices_[id].fit_due) return;
+  vertices_[id].fit_due = true;
+  fit_due_.push_back(id);
+}
+
+void StreamingMesher::MarkForStar(uint32_t id) {
+  if (vertices_[id].star_due) return;
+  vertices_[id].star_due = true;
+  star_due_.push_back(id);
+}
+
+void StreamingMesher::MarkStarsAround(uint32_t id) {
+  const Eigen::Vector3f p_W = vertices_[id].p_W;
+  const float squared_reach = settings_.triangulation.max_edge_m * settings_.triangulation.max_edge_m;
+  vertices_.ForEachNear(p_W, settings_.triangulation.max_edge_m, [&](uint32_t other) {
+    const Vertex& w = vertices_[other];
+    if (w.state == Vertex::State::kReal && (w.p_W - p_W).squaredNorm() <= squared_reach) MarkForStar(other);
+  });
+}
+
+void StreamingMesher::MarkForPublishing(uint32_t id) {
+  if (id >= in_publish_due_.size()) in_publish_due_.resize(id + 1, 0);
+  if (in_publish_due_[id] != 0) return;
+  in_publish_due_[id] = 1;
+  publish_due_.push_back(id);
+}
+
+void StreamingMesher::Update() {
+  FitDueVertices();
+  TriangulateDueVertices();
+}
+
+void StreamingMesher::FitDueVertices() {
+  std::sort(fit_due_.begin(), fit_due_.end());
+  for (uint32_t id : fit_due_) {
+    vertices_[id].fit_due = false;
+    if (vertices_[id].state == Vertex::State::kReal) FitReal(id);
+    if (vertices_[id].state == Vertex::State::kPending) FitPending(id);
+  }
+  fit_due_.clear();
+}
+
+void StreamingMesher::FitPending(uint32_t id) {
+  Vertex& v = vertices_[id];
+  samples_.clear();
+  measurements_.Gather(v.anchor_W, settings_.fit.radius_m, v.view_sum_W, samples_);
+  const auto guess = EstimateNormal(samples_, v.anchor_W, v.view_sum_W, settings_.fit);
+  if (!guess) return;
+  const auto fit = FitSurface(samples_, v.anchor_W, *guess, settings_.fit);
+  const float view_length = v.view_sum_W.norm();
+  if (!fit || fit->normal_W.dot(v.view_sum_W) < std::cos(settings_.max_incidence_rad) * view_length) return;
+  if (!HasRoomFor(id, *fit)) {
+    vertices_.Remove(id);
+    return;
+  }
+  v.state = Vertex::State::kReal;
+  v.normal_W = fit->normal_W;
+  v.best_cosine = fit->normal_W.dot(v.view_sum_W) / view_length;
+  vertices_.Move(id, fit->p_W);
+  v.anchor_W = v.star_p_W = v.p_W;
+  v.star_normal_W = v.normal_W;
+  MarkStarsAround(id);
+  MarkForPublishing(id);
+}
+
+bool StreamingMesher::HasRoomFor(uint32_t id, const SurfaceFit& fit) const {
+  const float least = settings_.least_spacing_share * settings_.spacing_m;
+  bool room = true;
+  vertices_.ForEachNear(fit.p_W, settings_.fit.height_tolerance_m, [&](uint32_t other) {
+    const Vertex& w = vertices_[other];
+    if (other == id || w.state != Vertex::State::kReal) return;
+    const Eigen::Vector3f d = w.p_W - fit.p_W;
+    const float cosine = w.normal_W.dot(fit.normal_W);
+    if (cosine > -0.5f && d.squaredNorm() < least * least) room = false;
+    // A parallel sheet of the same side this close above or below is the same surface, measured with an offset.
+    const float height = d.dot(fit.normal_W);
+    if (cosine > 0.8f && std::abs(height) < settings_.fit.height_tolerance_m &&
+        d.squaredNorm() - height * height < least * least)
+      room = false;
+  });
+  return room;
+}
+
+void StreamingMesher::FitReal(uint32_t id) {
+  Vertex& v = vertices_[id];
+  samples_.clear();
+  measurements_.Gather(v.anchor_W, settings_.fit.radius_m, v.normal_W, samples_);
+  MarkForPublishing(id);
+  const auto fit = FitSurface(samples_, v.anchor_W, v.normal_W, settings_.fit);
+  if (!fit) return;
+  v.normal_W = fit->normal_W;
+  vertices_.Move(id, fit->p_W);
+  const bool moved = (v.p_W - v.star_p_W).norm() > settings_.star_moved_m;
+  const bool turned = v.normal_W.dot(v.star_normal_W) < std::cos(settings_.star_turned_rad);
+  if (!moved && !turned) return;
+  v.star_p_W = v.p_W;
+  v.star_normal_W = v.normal_W;
+  MarkStarsAround(id);
+}
+
+void StreamingMesher::TriangulateDueVertices() {
+  std::sort(star_due_.begin(), star_due_.end());
+  for (uint32_t id : star_due_) vertices_[id].star_due = false;
+  triangulation_.Update(star_due_, vertices_);
+  star_due_.clear();
+}
+
+MeshDelta StreamingMesher::TakeDelta() {
+  Update();
+  MeshDelta delta;
+  delta.utime_us = scan_.utime_us;
+  delta.scan = scan_.scan;
+  delta.end_of_scan = scan_ended_;
+  CollectVertices(delta);
+  for (uint32_t slot : triangulation_.TakeChangedSlots())
+    delta.triangles.push_back({slot, topology().triangles()[slot]});
+  return delta;
+}
+
+void StreamingMesher::CollectVertices(MeshDelta& delta) {
+  std::sort(publish_due_.begin(), publish_due_.end());
+  std::vector<uint32_t> held_back;
+  published_.resize(vertices_.size());
+  for (uint32_t id : publish_due_) {
+    const Vertex& v = vertices_[id];
+    MeshVertex now{id,
+                   v.p_W,
+                   v.normal_W,
+                   1.0f / std::sqrt(v.information),
+                   std::acos(std::clamp(v.best_cosine, -1.0f, 1.0f)),
+                   static_cast<uint16_t>(v.measurements),
+                   v.first_scan,
+                   v.last_scan};
+    MeshVertex& before = published_[id];
+    const bool noticeable = before.measurements == 0 || (now.p_W - before.p_W).norm() > settings_.moved_noticeably_m;
+    if (!noticeable && !scan_ended_) {
+      held_back.push_back(id);
+      continue;
+    }
+    in_publish_due_[id] = 0;
+    if (now == before) continue;
+    before = now;
+    delta.vertices.push_back(now);
+  }
+  publish_due_ = std::move(held_back);
+}
+
+MeshScan StreamingMesher::CalcScanFigures() const {
+  MeshScan figures = scan_;
+  figures.refused = counts_.refused_measurements + counts_.refused_stripes;
+  figures.triangles = topology().triangle_count();
+  figures.edges = topology().edge_count();
+  figures.border_edges = topology().border_edge_count();
+  std::vector<uint32_t> successors;
+  for (uint32_t id = 0; id < vertices_.size(); ++id) {
+    if (vertices_[id].state != Vertex::State::kReal) continue;
+    ++figures.vertices;
+    topology().FindBorderSuccessors(id, successors);
+    for (uint32_t next : successors) figures.rim_length_m += (vertices_[next].p_W - vertices_[id].p_W).norm();
+  }
+  if (figures.edges > 0)
+    figures.completeness = 1.0 - static_cast<double>(figures.border_edges) / static_cast<double>(figures.edges);
+  return figures;
+}
+
+}  // namespace nbs

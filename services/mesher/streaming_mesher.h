@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "common/geometry/mesh_delta.h"
+#include "common/sensing/profiler.h"
+#include "services/mesher/measurement_map.h"
+#include "services/mesher/star_triangulation.h"
+#include "services/mesher/surface_fit.h"
+#include "services/mesher/vertex_store.h"
+
+namespace nbs {
+
+struct StreamingMesherSettings {
+  float spacing_m = 0.0023f;  ///< R_d: a measurement nearer to a vertex than this refines it, others found new ones.
+                              ///< Mean edge: about 1.35 R_d.
+  float cell_m = 0.002f;      ///< Of the measurement map.
+  float least_spacing_share = 0.65f;  ///< Vertices are never nearer to each other than this share of R_d.
+  float max_incidence_rad =
+      1.40f;  ///< A surface seen only more obliquely than this is no surface, but points in the air at a depth edge.
+  float moved_noticeably_m = 0.00005f;  ///< Published before the end of the scan only when moved further than this.
+  float star_moved_m = 0.0001f;         ///< Stars are made anew when a vertex moved further than this,
+  float star_turned_rad = 0.05f;        ///< or turned further than this.
+  SurfaceFitSettings fit;
+  TriangulationSettings triangulation;
+};
+
+/// Counts over the life of the mesher.
+struct MesherCounts {
+  int64_t refused_stripes = 0;       ///< Pose not rigid, wrong number of ranges, or not after the stripe before it.
+  int64_t refused_measurements = 0;  ///< Not finite, negative, or further than twice the depth of field.
+};
+
+/// Folds laser stripes into one growing triangle mesh (after Bodenmüller, "Streaming Surface Reconstruction from Real
+/// Time 3D Measurements", TU München 2009): density limit, normals, vertex selection, localised triangulation. What is
+/// not seen stays open: no edge is longer than R_max.
+///
+/// Measurements are summed up in a MeasurementMap. A measurement that has no vertex within R_d founds a pending one;
+/// vertices with enough support get a fitted surface, move onto it and become real; StarTriangulation joins them. Fits
+/// and triangles are brought up to date in batches, by Update. The result is a function of the stripes and of the
+/// places of the updates between them.
+class StreamingMesher {
+ public:
+  StreamingMesher(const Profiler& profiler, const StreamingMesherSettings& settings);
+
+  /// Folds one stripe in. A closing stripe ends the scan (its pose does not matter): points that found no support are
+  /// forgotten.
+  ///
+  /// Refuses, and counts, a stripe whose pose is not rigid or further than 500 m off, that has not one range a beam, or
+  /// that does not come after the stripe before it; and single ranges that are not finite, negative or beyond twice the
+  /// depth of field. A range of 0 is no return.
+  ///
+  /// @returns False if the stripe was refused as a whole.
+  bool AddStripe(const Stripe& stripe);
+
+  /// Brings fits and triangles up to date with all stripes so far.
+  void Update();
+
+  /// Updates, then returns what changed since the last delta. After a closing stripe the delta has end_of_scan set and
+  /// holds everything; before, refinements too small to notice are held back.
+  MeshDelta TakeDelta();
+
+  /// Figures of the mesh after the last update and of the scan so far.
+  MeshScan CalcScanFigures() const;
+
+  const MesherCounts& counts() const { return counts_; }
+  const VertexStore& vertices() const { return vertices_; }
+  const MeshTopology& topology() const { return triangulation_.topology(); }
+
+ private:
+  bool IsAcceptable(const Stripe& stripe) const;
+  void BeginScan(int32_t scan);
+  void EndScan();
+  void AddRanges(const Stripe& stripe);
+  void AddMeasurement(const Measurement& m);
+  void Refine(uint32_t id, const Measurement& m);
+  void MarkForFit(uint32_t id);
+  void MarkForStar(uint32_t id);
+  void MarkStarsAround(uint32_t id);
+  void MarkForPublishing(uint32_t id);
+  void FitDueVertices();
+  void FitPending(uint32_t id);
+  void FitReal(uint32_t id);
+  bool HasRoomFor(uint32_t id, const SurfaceFit& fit) const;
+  void TriangulateDueVertices();
+  void CollectVertices(MeshDelta& delta);
+
+  Profiler profiler_;
+  StreamingMesherSettings settings_;
+  std::vector<Eigen::Vector3f> directions_S_;
+  MeasurementMap measurements_;
+  VertexStore vertices_;
+  StarTriangulation triangulation_;
+  MesherCounts counts_;
+  MeshScan scan_;  // utime, scan, stripes and points are kept; the rest is filled in on demand.
+  int32_t last_index_ = -1;
+  bool scan_ended_ = true;
+  bool scan_begun_ = false;
+  std::vector<uint32_t> fit_due_, star_due_, publish_due_;
+  std::vector<MeshVertex> published_;  // By number, as last published; measurements 0: not published.
+  std::vector<uint8_t> in_publish_due_;
+  std::vector<Sample> samples_;
+};
+
+}  // namespace nbs

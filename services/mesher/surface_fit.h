@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "services/mesher/measurement_map.h"
+
+namespace nbs {
+
+struct SurfaceFitSettings {
+  float radius_m = 0.005f;            ///< R_n: samples beyond it have no weight.
+  float height_tolerance_m = 0.002f;  ///< Samples further than this from the surface along the normal have no weight:
+                                      ///< another sheet, or an outlier.
+  int min_measurements = 5;           ///< Fewer within R_n and the tolerance: no fit.
+  float min_spread_m = 0.0009f;  ///< Least standard deviation of the samples across the surface, in their narrowest
+                                 ///< direction: no normal from one stripe.
+  float max_curvature_per_m = 150.0f;  ///< Prior on the quadratic terms: their expected size.
+};
+
+/// The surface at a vertex.
+struct SurfaceFit {
+  Eigen::Vector3f p_W = Eigen::Vector3f::Zero();       ///< The anchor moved along the normal onto the surface, metres.
+  Eigen::Vector3f normal_W = Eigen::Vector3f::Zero();  ///< Unit, towards the side that was seen.
+  float residual_m = 0.0f;                             ///< Root mean square of the samples' distances from it.
+  int measurements = 0;                                ///< That carried it.
+};
+
+/// Normal by weighted principal components of the samples within R_n, turned towards side_W. Nothing if the samples are
+/// too few or in a line.
+std::optional<Eigen::Vector3f> EstimateNormal(std::span<const Sample> samples, const Eigen::Vector3f& anchor_W,
+                                              const Eigen::Vector3f& side_W, const SurfaceFitSettings& settings);
+
+/// Fits z = ax^2 + bxy + cy^2 + dx + ey + f to the samples in a frame at the anchor with z along the normal: a moving
+/// least-squares surface (Levin 2003) with Tukey weights in height, so that a few outliers or a sheet behind do not
+/// pull, and a prior that keeps the quadratic terms small where there are few samples. Two scans that lie up to the
+/// height tolerance apart are averaged by their weights.
+///
+/// @param samples   Seen from the side of the normal.
+/// @param anchor_W  Metres; the vertex keeps its place across the normal.
+/// @param normal_W  Unit; a first guess, good to some 30 degrees.
+/// @returns Nothing if the samples are too few, all in a line, or give no surface.
+std::optional<SurfaceFit> FitSurface(std::span<const Sample> samples, const Eigen::Vector3f& anchor_W,
+                                     const Eigen::Vector3f& normal_W, const SurfaceFitSettings& settings);
+
+}  // namespace nbs

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "services/mesher/brick_grid.h"
+#include "services/mesher/local_star.h"
+#include "services/mesher/measurement_map.h"
+
+namespace nbs {
+
+/// One vertex of the mesh, or a point that may become one.
+struct Vertex {
+  enum class State : uint8_t {
+    kFree,     ///< The slot holds nothing.
+    kPending,  ///< A measured point that keeps its distance from all others, waiting for support.
+    kReal,     ///< Has a surface; may be in triangles.
+  };
+  State state = State::kFree;
+  bool fit_due = false;   ///< Measurements came near since the surface was fitted.
+  bool star_due = false;  ///< The vertex or its surroundings changed since the star was made.
+  Eigen::Vector3f anchor_W =
+      Eigen::Vector3f::Zero();  ///< Fixed point through which the vertex moves along its normal, metres.
+  Eigen::Vector3f p_W = Eigen::Vector3f::Zero();       ///< Metres.
+  Eigen::Vector3f normal_W = Eigen::Vector3f::Zero();  ///< Unit; zero while pending.
+  Eigen::Vector3f view_sum_W =
+      Eigen::Vector3f::Zero();  ///< Sum of the unit directions from which its own measurements were made.
+  Eigen::Vector3f star_p_W = Eigen::Vector3f::Zero();  ///< Position at which the stars around it were made.
+  Eigen::Vector3f star_normal_W = Eigen::Vector3f::Zero();
+  float information = 0.0f;   ///< Sum of 1/sigma^2 of its own measurements, 1/m^2.
+  float best_cosine = -1.0f;  ///< Of the incidence.
+  int32_t measurements = 0;   ///< Its own: those to which it was the nearest vertex.
+  uint16_t first_scan = 0;
+  uint16_t last_scan = 0;
+  int32_t next_in_cell = BrickGrid::kNone;
+  LocalStar star;
+
+  /// The side from which it is seen: the normal, or while there is none the sum of the views.
+  const Eigen::Vector3f& side_W() const { return state == State::kReal ? normal_W : view_sum_W; }
+};
+
+/// The vertices by number, and by place. Numbers are reused, last freed first.
+class VertexStore {
+ public:
+  /// @param cell_m  Edge of a cell of the search grid, metres.
+  explicit VertexStore(float cell_m) : grid_(cell_m) {}
+
+  /// Makes a pending vertex at a measured point and returns its number.
+  uint32_t Insert(const Measurement& m, int32_t scan);
+  void Remove(uint32_t id);
+  /// Moves a vertex to p_W.
+  void Move(uint32_t id, const Eigen::Vector3f& p_W);
+
+  const Vertex& operator[](uint32_t id) const { return vertices_[id]; }
+  Vertex& operator[](uint32_t id) { return vertices_[id]; }
+  /// One past the largest number in use so far.
+  uint32_t size() const { return static_cast<uint32_t>(vertices_.size()); }
+
+  /// Calls visit(id) for each vertex in the cells that meet the cube of half edge radius_m about p_W; some lie further
+  /// away than the radius.
+  template <typename Visit>
+  void ForEachNear(const Eigen::Vector3f& p_W, float radius_m, Visit&& visit) const {
+    grid_.ForEachCell(p_W, radius_m, [&](int32_t head) {
+      for (int32_t i = head; i != BrickGrid::kNone; i = vertices_[i].next_in_cell) visit(static_cast<uint32_t>(i));
+    });
+  }
+
+ private:
+  void Link(uint32_t id);
+  void Unlink(uint32_t id);
+
+  BrickGrid grid_;
+  std::vector<Vertex> vertices_;
+  std::vector<uint32_t> free_;
+};
+
+}  // namespace nbs
