@@ -40,7 +40,7 @@ class FreeMotion final : public MotionBackend {
   Pose X_FS_;
   std::optional<double> table_z_m_;
   CollisionBody body_F_;
-  MotionLimits limits_;
+  TimingLimits limits_;
   Eigen::AlignedBox3d search_box_W_;
 };
 

@@ -18,7 +18,7 @@ double CheckPositive(const char* name, double value) {
 bool IsSame(const Pose& a, const Pose& b) { return a.matrix() == b.matrix(); }
 
 /// Appends the motion from the last point to X_WF, which takes at least `duration_s`.
-void Append(const MotionLimits& limits, const Pose& X_WF, double duration_s, bool scanning,
+void Append(const TimingLimits& limits, const Pose& X_WF, double duration_s, bool scanning,
             std::vector<TrajectoryPoint>& points) {
   const TrajectoryPoint from = points.back();
   const int n = std::max(1, static_cast<int>(std::ceil(CalcAngleBetween(from.X_WF, X_WF) / kLargestTurn)));
@@ -38,8 +38,8 @@ int64_t RoundUp(int64_t value, int64_t step) { return (value + step - 1) / step 
 
 }  // namespace
 
-MotionLimits MakeLimits(const CellConfig& cell) {
-  MotionLimits limits;
+TimingLimits MakeLimits(const CellConfig& cell) {
+  TimingLimits limits;
   limits.move_m_per_s = CheckPositive("move_speed_m_per_s", cell.move_speed_m_per_s);
   limits.turn_rad_per_s = CheckPositive("turn_speed_rad_per_s", cell.turn_speed_rad_per_s);
   limits.scan_m_per_s = CheckPositive("profiler.scan_speed_m_per_s", cell.profiler.scan_speed_m_per_s);
@@ -48,12 +48,12 @@ MotionLimits MakeLimits(const CellConfig& cell) {
   return limits;
 }
 
-double CalcMotionTime(const MotionLimits& limits, const Pose& X_WF_start, const Pose& X_WF_end) {
+double CalcMotionTime(const TimingLimits& limits, const Pose& X_WF_start, const Pose& X_WF_end) {
   const double way_m = (X_WF_end.translation() - X_WF_start.translation()).norm();
   return std::max(way_m / limits.move_m_per_s, CalcAngleBetween(X_WF_start, X_WF_end) / limits.turn_rad_per_s);
 }
 
-Trajectory MakeTrajectory(const MotionLimits& limits, std::span<const Pose> approach_WF, std::span<const Pose> scan_WF,
+Trajectory MakeTrajectory(const TimingLimits& limits, std::span<const Pose> approach_WF, std::span<const Pose> scan_WF,
                           double scan_length_m) {
   if (approach_WF.empty() || scan_WF.size() < 2) throw std::invalid_argument("MakeTrajectory: too few poses");
   Trajectory trajectory;
@@ -65,9 +65,12 @@ Trajectory MakeTrajectory(const MotionLimits& limits, std::span<const Pose> appr
   points.back().time_us = RoundUp(points.back().time_us, limits.profile_period_us);
 
   const auto pieces = static_cast<double>(scan_WF.size() - 1);
-  const double shortest_s = static_cast<double>(limits.profile_period_us) * 1e-6 / pieces;
-  const double piece_s = std::max(shortest_s, scan_length_m / pieces / limits.scan_m_per_s);
-  for (const Pose& X_WF : scan_WF.subspan(1)) Append(limits, X_WF, piece_s, true, points);
+  const double period_s = static_cast<double>(limits.profile_period_us) * 1e-6;
+  const double sensor_s = std::max(period_s, scan_length_m / limits.scan_m_per_s) / pieces;
+  for (const Pose& X_WF : scan_WF.subspan(1)) {
+    const double way_m = (X_WF.translation() - points.back().X_WF.translation()).norm();
+    Append(limits, X_WF, std::max(sensor_s, way_m / limits.scan_m_per_s), true, points);
+  }
   return trajectory;
 }
 

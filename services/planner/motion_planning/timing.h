@@ -9,18 +9,18 @@
 namespace nbs {
 
 /// Speeds that a trajectory keeps everywhere; all > 0.
-struct MotionLimits {
+struct TimingLimits {
   double move_m_per_s = 0.25;  ///< Of the flange's origin.
   double turn_rad_per_s = 0.8;
-  double scan_m_per_s = 0.05;  ///< Of the sensor's origin along a scan path.
+  double scan_m_per_s = 0.05;  ///< Of the sensor's and of the flange's origin along a scan path.
   int64_t profile_period_us = 40000;
 };
 
 /// @throws std::invalid_argument if a speed or the profile rate of the cell is not positive and finite.
-MotionLimits MakeLimits(const CellConfig& cell);
+TimingLimits MakeLimits(const CellConfig& cell);
 
 /// Time of a straight, evenly turning motion at the limits of move and turn, whichever is slower: seconds.
-double CalcMotionTime(const MotionLimits& limits, const Pose& X_WF_start, const Pose& X_WF_end);
+double CalcMotionTime(const TimingLimits& limits, const Pose& X_WF_start, const Pose& X_WF_end);
 
 /// Puts times to an approach and the scan path that follows.
 ///
@@ -34,7 +34,7 @@ double CalcMotionTime(const MotionLimits& limits, const Pose& X_WF_start, const 
 /// @param scan_WF        Poses at even fractions of the scan path, at least two.
 /// @param scan_length_m  Length of the sensor's way along the scan path.
 /// @returns A trajectory with utime_us and scan 0.
-Trajectory MakeTrajectory(const MotionLimits& limits, std::span<const Pose> approach_WF, std::span<const Pose> scan_WF,
+Trajectory MakeTrajectory(const TimingLimits& limits, std::span<const Pose> approach_WF, std::span<const Pose> scan_WF,
                           double scan_length_m);
 
 }  // namespace nbs

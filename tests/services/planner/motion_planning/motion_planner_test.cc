@@ -270,6 +270,7 @@ TEST_P(MotionPlannerLaw, NoSpeedExceedsItsLimit) {
     EXPECT_LE(CalcAngleBetween(points[k].X_WF, points[k + 1].X_WF) / seconds, 0.8 * (1 + 1e-9));
     if (points[k].scanning) {
       EXPECT_LE((X_WS_b.translation() - X_WS_a.translation()).norm() / seconds, 0.05 * (1 + 1e-6));
+      EXPECT_LE((points[k + 1].X_WF.translation() - points[k].X_WF.translation()).norm() / seconds, 0.05 * (1 + 1e-6));
     }
   }
 }

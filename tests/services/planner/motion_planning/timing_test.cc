@@ -13,7 +13,7 @@ Pose MakeTurn(const Eigen::Vector3d& p_W, double angle_rad) {
   return MakePose(p_W, Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ())));
 }
 
-const MotionLimits kLimits;  // 0.25 m/s, 0.8 rad/s, 0.05 m/s, 40 ms
+const TimingLimits kLimits;  // 0.25 m/s, 0.8 rad/s, 0.05 m/s, 40 ms
 
 std::vector<Pose> MakeScan(const Pose& X_WF) {
   return {X_WF, MakeTurn(X_WF.translation() + Eigen::Vector3d(0.1, 0, 0), 0.0)};
@@ -46,6 +46,12 @@ TEST(Timing, TurningScanKeepsTheTurnSpeed) {
   const std::vector<Pose> scan_WF = {Pose::Identity(), MakeTurn({0.01, 0, 0}, 1.2)};
   const Trajectory trajectory = MakeTrajectory(kLimits, std::vector<Pose>{Pose::Identity()}, scan_WF, 0.01);
   EXPECT_NEAR(static_cast<double>(trajectory.points.back().time_us), 1.5e6, 1.0);
+}
+
+TEST(Timing, FlangeNoFasterThanTheScanWhereTheSensorStandsOff) {
+  const std::vector<Pose> scan_WF = {Pose::Identity(), MakeTurn({0.2, 0, 0}, 0.0)};
+  const Trajectory trajectory = MakeTrajectory(kLimits, std::vector<Pose>{Pose::Identity()}, scan_WF, 0.1);
+  EXPECT_NEAR(static_cast<double>(trajectory.points.back().time_us), 4e6, 1.0);
 }
 
 TEST(Timing, ScanWithoutLengthLastsOneProfile) {
