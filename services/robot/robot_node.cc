@@ -8,7 +8,7 @@
 namespace nbs {
 
 RobotNode::RobotNode(const RunConfig& config)
-    : clock_(config.cell.profiler.rate_hz), limits_(MakeMotionLimits(config.cell)) {
+    : clock_(config.cell.profiler.rate_hz), limits_(MakeRobotLimits(config.cell)) {
   if (config.cell.robot != "free") {
     throw ConfigError("The cell " + config.cell.name + " has the robot \"" + config.cell.robot +
                       "\", but only \"free\" can be simulated.");

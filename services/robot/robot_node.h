@@ -31,7 +31,7 @@ class RobotNode : public Node {
   void Finish(const Trajectory& trajectory, std::string refusal, Outbox& out);
 
   ProfileClock clock_;
-  MotionLimits limits_;
+  RobotLimits limits_;
   std::optional<Pose> X_WF_;  ///< Where the robot rests; nullopt before the first trajectory.
   int64_t next_tick_ = 0;     ///< The first tick without a state.
   int64_t refused_ = 0;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 namespace nbs {
 namespace {
 
@@ -23,7 +25,7 @@ std::string FindFormFault(const Trajectory& trajectory) {
   return {};
 }
 
-std::string FindStartFault(const TrajectoryPoint& first, const Pose& X_WF, const MotionLimits& limits) {
+std::string FindStartFault(const TrajectoryPoint& first, const Pose& X_WF, const RobotLimits& limits) {
   const double distance_m = (first.X_WF.translation() - X_WF.translation()).norm();
   const double angle_rad = CalcAngleBetween(first.X_WF, X_WF);
   if (distance_m <= limits.start_tolerance_m && angle_rad <= limits.start_tolerance_rad) return {};
@@ -31,37 +33,44 @@ std::string FindStartFault(const TrajectoryPoint& first, const Pose& X_WF, const
                      angle_rad);
 }
 
-std::string FindSpeedFault(const Trajectory& trajectory, const MotionLimits& limits) {
+double CalcDistance(const Pose& X_WA, const Pose& X_WB) { return (X_WA.translation() - X_WB.translation()).norm(); }
+
+std::string FindSpeedFault(const Trajectory& trajectory, const RobotLimits& limits) {
   const auto& points = trajectory.points;
   for (size_t i = 1; i < points.size(); ++i) {
+    const Pose& X_WF_from = points[i - 1].X_WF;
+    const Pose& X_WF_to = points[i].X_WF;
     const double duration_s = 1e-6 * static_cast<double>(points[i].time_us - points[i - 1].time_us + 1);
-    const bool scanning = points[i - 1].scanning;
-    const double limit_m_per_s = scanning ? limits.scan_speed_m_per_s : limits.move_speed_m_per_s;
-    const double speed_m_per_s = (points[i].X_WF.translation() - points[i - 1].X_WF.translation()).norm() / duration_s;
-    if (speed_m_per_s > limit_m_per_s * (1.0 + limits.speed_tolerance)) {
-      return fmt::format("Between points {} and {} it {} at {:.4f} m/s; the limit is {:.4f} m/s.", i - 1, i,
-                         scanning ? "scans" : "moves", speed_m_per_s, limit_m_per_s);
+    const auto explain = [&](std::string_view what, double speed, double limit, std::string_view unit) -> std::string {
+      if (speed <= limit * (1.0 + limits.speed_tolerance)) return {};
+      return fmt::format("Between points {} and {} it {} at {:.4f} {}; the limit is {:.4f} {}.", i - 1, i, what, speed,
+                         unit, limit, unit);
+    };
+    std::string fault =
+        explain("moves", CalcDistance(X_WF_from, X_WF_to) / duration_s, limits.move_speed_m_per_s, "m/s");
+    if (fault.empty())
+      fault = explain("turns", CalcAngleBetween(X_WF_from, X_WF_to) / duration_s, limits.turn_speed_rad_per_s, "rad/s");
+    if (fault.empty() && points[i - 1].scanning) {
+      const double scanned_m = CalcDistance(X_WF_from * limits.X_FS, X_WF_to * limits.X_FS);
+      fault = explain("scans", scanned_m / duration_s, limits.scan_speed_m_per_s, "m/s");
     }
-    const double turn_rad_per_s = CalcAngleBetween(points[i].X_WF, points[i - 1].X_WF) / duration_s;
-    if (turn_rad_per_s > limits.turn_speed_rad_per_s * (1.0 + limits.speed_tolerance)) {
-      return fmt::format("Between points {} and {} it turns at {:.4f} rad/s; the limit is {:.4f} rad/s.", i - 1, i,
-                         turn_rad_per_s, limits.turn_speed_rad_per_s);
-    }
+    if (!fault.empty()) return fault;
   }
   return {};
 }
 
 }  // namespace
 
-MotionLimits MakeMotionLimits(const CellConfig& cell) {
-  MotionLimits limits;
+RobotLimits MakeRobotLimits(const CellConfig& cell) {
+  RobotLimits limits;
   limits.move_speed_m_per_s = cell.move_speed_m_per_s;
   limits.scan_speed_m_per_s = cell.profiler.scan_speed_m_per_s;
   limits.turn_speed_rad_per_s = cell.turn_speed_rad_per_s;
+  limits.X_FS = cell.X_FS;
   return limits;
 }
 
-std::string FindRefusal(const Trajectory& trajectory, const Pose& X_WF, const MotionLimits& limits) {
+std::string FindRefusal(const Trajectory& trajectory, const Pose& X_WF, const RobotLimits& limits) {
   std::string fault = FindFormFault(trajectory);
   if (fault.empty()) fault = FindStartFault(trajectory.points.front(), X_WF, limits);
   if (fault.empty()) fault = FindSpeedFault(trajectory, limits);

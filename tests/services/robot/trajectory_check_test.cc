@@ -40,6 +40,19 @@ TEST(TrajectoryCheck, ScanningFasterThanTheScanSpeedIsRefused) {
   EXPECT_THAT(Check(trajectory), HasSubstr("Between points 1 and 2 it scans at 0.0550 m/s"));
 }
 
+TEST(TrajectoryCheck, TheScanSpeedIsThatOfTheSensorAndNotOfTheFlange) {
+  // The sensor's origin rests 0.1 m ahead of the flange, which turns around it at 0.5 rad/s and so moves at 0.05 m/s.
+  RobotLimits limits;
+  limits.X_FS = MakePose({0.1, 0, 0}, Eigen::Quaterniond::Identity());
+  limits.scan_speed_m_per_s = 0.001;
+  const Pose X_FS_inverse = limits.X_FS.inverse();
+  const Trajectory around{
+      0, 0, {{0, At(0) * X_FS_inverse, {}, true}, {1'000'000, At(0, 0.5) * X_FS_inverse, {}, false}}};
+  EXPECT_EQ(FindRefusal(around, around.points[0].X_WF, limits), "");
+  limits.X_FS = Pose::Identity();
+  EXPECT_THAT(FindRefusal(around, around.points[0].X_WF, limits), HasSubstr("it scans at 0.04"));
+}
+
 TEST(TrajectoryCheck, TurningTooFastIsRefused) {
   Trajectory trajectory = MakeFastest();
   trajectory.points[1].X_WF = At(0.25, 0.9);
@@ -84,10 +97,12 @@ TEST(TrajectoryCheck, LimitsComeFromTheCell) {
   cell.move_speed_m_per_s = 1.0;
   cell.turn_speed_rad_per_s = 2.0;
   cell.profiler.scan_speed_m_per_s = 3.0;
-  const MotionLimits limits = MakeMotionLimits(cell);
+  cell.X_FS = At(0.7);
+  const RobotLimits limits = MakeRobotLimits(cell);
   EXPECT_EQ(limits.move_speed_m_per_s, 1.0);
   EXPECT_EQ(limits.turn_speed_rad_per_s, 2.0);
   EXPECT_EQ(limits.scan_speed_m_per_s, 3.0);
+  EXPECT_EQ(limits.X_FS.matrix(), cell.X_FS.matrix());
 }
 
 }  // namespace
