@@ -51,6 +51,20 @@ void SetRay(RTCRay8& rays, size_t lane, const Eigen::Vector3d& origin, const Eig
   rays.flags[lane] = 0;
 }
 
+RTCRay MakeRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, float near, float far) {
+  RTCRay ray{};
+  ray.org_x = static_cast<float>(origin.x());
+  ray.org_y = static_cast<float>(origin.y());
+  ray.org_z = static_cast<float>(origin.z());
+  ray.dir_x = static_cast<float>(direction.x());
+  ray.dir_y = static_cast<float>(direction.y());
+  ray.dir_z = static_cast<float>(direction.z());
+  ray.tnear = near;
+  ray.tfar = far;
+  ray.mask = 0xffffffffu;
+  return ray;
+}
+
 }  // namespace
 
 struct TriangleScene::Embree {
@@ -135,23 +149,14 @@ RayHit TriangleScene::CastRay(const Ray& ray, double reach_m) const { return Cas
 
 std::vector<uint8_t> TriangleScene::FindBlocked(std::span<const Segment> segments, double skip_m) const {
   std::vector<uint8_t> blocked(segments.size(), 0);
-  RTCIntersectContext context = MakeContext(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
-  for (size_t begin = 0; begin < segments.size(); begin += kPacket) {
-    const size_t count = std::min(kPacket, segments.size() - begin);
-    alignas(32) int valid[kPacket] = {};
-    alignas(32) RTCRay8 packet{};
-    for (size_t lane = 0; lane < count; ++lane) {
-      const Segment& segment = segments[begin + lane];
-      const Eigen::Vector3d p_AB = segment.p_WB - segment.p_WA;
-      const double length = p_AB.norm();
-      if (!(length > skip_m)) continue;
-      valid[lane] = -1;
-      SetRay(packet, lane, segment.p_WA, p_AB / length, static_cast<float>(skip_m), static_cast<float>(length));
-    }
-    rtcOccluded8(valid, embree_->scene, &context, &packet);
-    for (size_t lane = 0; lane < count; ++lane) {
-      if (valid[lane] != 0 && packet.tfar[lane] == -kInfinity) blocked[begin + lane] = 1;
-    }
+  RTCIntersectContext context = MakeContext(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+  for (size_t i = 0; i < segments.size(); ++i) {
+    const Eigen::Vector3d p_AB = segments[i].p_WB - segments[i].p_WA;
+    const double length = p_AB.norm();
+    if (!(length > skip_m)) continue;
+    RTCRay ray = MakeRay(segments[i].p_WA, p_AB / length, static_cast<float>(skip_m), static_cast<float>(length));
+    rtcOccluded1(embree_->scene, &context, &ray);
+    blocked[i] = ray.tfar == -kInfinity;
   }
   return blocked;
 }
