@@ -5,6 +5,7 @@ nbs_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # A test may point to another build; NBS_READY=1 then says that packages and build are in place.
 nbs_build=${NBS_BUILD_DIR:-$nbs_root/build/release}
 nbs_bin=$nbs_build/bin
+nbs_runs=${NBS_RUNS_DIR:-$nbs_root/runs}
 # What runs at the moment: ports, their locks, one file per running set.
 nbs_state=${NBS_STATE_DIR:-${TMPDIR:-/tmp}/next-best-scan-$(id -u)}
 nbs_group=239.255.76.67

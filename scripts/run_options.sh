@@ -37,9 +37,9 @@ take_run_option() {
 default_out() {
   local object=${run_object##*/} base
   object=${object%.*}
-  base=$nbs_root/runs/${object:-object}-${run_method//\//-}-seed$run_seed-$(date +%Y%m%d-%H%M%S)
+  base=$nbs_runs/${object:-object}-${run_method//\//-}-seed$run_seed-$(date +%Y%m%d-%H%M%S)
   local out=$base number=1
-  while ! { mkdir -p "$nbs_root/runs" && mkdir "$out"; } 2>/dev/null; do
+  while ! { mkdir -p "$nbs_runs" && mkdir "$out"; } 2>/dev/null; do
     [[ -e $out ]] || fail "cannot make the run folder $out"
     out=$base-$((++number))
   done
@@ -56,7 +56,7 @@ check_space() {
 
 # prepare_run: checks the options and makes the run folder with run.yaml; sets nbs_run.
 prepare_run() {
-  check_space "$(canonical "${run_out:-$nbs_root/runs}")"
+  check_space "$(canonical "${run_out:-$nbs_runs}")"
   local made=
   if [[ -z $run_out ]]; then
     run_out=$(default_out)

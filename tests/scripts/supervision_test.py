@@ -37,7 +37,8 @@ class ScriptTest(unittest.TestCase):
         binaries.mkdir(parents=True)
         for name in SERVICES + ["prepare"]:
             (binaries / f"nbs-{name}").symlink_to(SOURCE / "tests/scripts/fake_service.sh")
-        self.environment = dict(os.environ, NBS_READY="1", NBS_BUILD_DIR=str(self.folder / "build"), NBS_STATE_DIR=str(self.folder / "state"))
+        self.environment = dict(os.environ, NBS_READY="1", NBS_BUILD_DIR=str(self.folder / "build"), NBS_STATE_DIR=str(self.folder / "state"),
+                                NBS_RUNS_DIR=str(self.folder / "runs"))
         self.started = []
         self.addCleanup(self.end_all)
 
@@ -89,9 +90,17 @@ class Scan(ScriptTest):
         self.assert_nothing_runs(run)
 
     def test_default_folder_is_named_after_object_method_and_seed(self):
-        code, _, errors = self.run_script("scan", "--object", "/tmp/a b.ply", "--method", "BAD", "--seed", "7")
+        process = self.start("scan", "--object", "/tmp/a b.ply", "--method", "B/IG", "--seed", "7")
+        wait_until(lambda: list((self.folder / "runs").glob("*/reporter.starts")), "the run has started")
+        (run,) = (self.folder / "runs").iterdir()
+        self.assertRegex(run.name, r"^a b-B-IG-seed7-\d{8}-\d{6}$")
+        (run / "finish").touch()
+        process.communicate(timeout=30)
+
+    def test_refused_options_leave_no_folder(self):
+        code, _, errors = self.run_script("scan", "--method", "BAD")
         self.assertEqual((1, "unknown method `BAD`\n"), (code, errors))
-        self.assertEqual([], list((SOURCE / "runs").glob("a b-BAD-seed7-*")))
+        self.assertEqual([], list((self.folder / "runs").iterdir()))
 
     def test_interrupt_stops_everything_and_saves(self):
         process, run = self.start_scan()
