@@ -3,6 +3,7 @@
 
 declare -A nbs_service_of=()   # process number -> service
 declare -A nbs_deaths=()       # service -> seconds of its deaths
+nbs_service_options=()         # for every service of the set
 nbs_give_up_deaths=5           # this many deaths …
 nbs_give_up_seconds=30         # … within this time end the run
 nbs_stop_seconds=10            # after a TERM; then KILL
@@ -11,15 +12,15 @@ nbs_stop_seconds=10            # after a TERM; then KILL
 note() { printf '%(%F %T)T %s\n' -1 "$*" >>"$nbs_run/logs/supervisor.log" 2>/dev/null || true; }
 
 # start_service NAME: nbs-NAME in a session of its own (a Ctrl-C reaches only the supervisor), killed by the kernel should the supervisor itself be killed.
-# The reporter's lines are the terminal's; everything else goes to RUN/logs/NAME.log.
+# The reporter's lines are the terminal's, and it ends with the run; the others serve repair until they are stopped, and write to RUN/logs/NAME.log.
+# NBS_SERVICE_OPTIONS: more options for every service, for tests.
 start_service() {
   local name=$1 log=$nbs_run/logs/$1.log
   local extra=()
-  # For tests: more options for every service.
   read -ra extra <<<"${NBS_SERVICE_OPTIONS:-}"
-  local command=(setsid setpriv --pdeathsig KILL -- "$nbs_bin/nbs-$name" --run "$nbs_run" --lcm-url "$nbs_url" "${extra[@]}")
+  local command=(setsid setpriv --pdeathsig KILL -- "$nbs_bin/nbs-$name" --run "$nbs_run" --lcm-url "$nbs_url" "${nbs_service_options[@]}" "${extra[@]}")
   if [[ $name == reporter ]]; then
-    "${command[@]}" 2>>"$log" </dev/null &
+    "${command[@]}" --exit-when-finished 2>>"$log" </dev/null &
   else
     "${command[@]}" >>"$log" 2>&1 </dev/null &
   fi
@@ -103,7 +104,7 @@ handle_end() {
   note "$name died of signal $signal; started again"
 }
 
-# supervise NAME: keeps the services running until NAME has finished (or, with NAME empty, all have). Returns 0, or the exit code of a run that failed.
+# supervise NAME: keeps the services running until NAME has finished (or, if it is not among them, all have). Returns 0, or the exit code of a run that failed.
 supervise() {
   local until_name=$1 pid code name result
   while ((${#nbs_service_of[@]})); do
