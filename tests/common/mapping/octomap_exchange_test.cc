@@ -116,6 +116,22 @@ TEST_F(OctomapExchange, AFileThatIsCutShortIsRefused) {
   }
 }
 
+TEST_F(OctomapExchange, AFileWithMoreThanItAnnouncesIsRefused) {
+  const VoxelGrid grid = MakeGrid();
+  WriteOctomap(grid, file_);
+  Store(Load() + "x");
+  EXPECT_THROW((void)ReadOctomap(file_, grid.shape()), ConfigError);
+}
+
+TEST_F(OctomapExchange, EqualNeighboursBecomeOneLeaf) {
+  VoxelGrid grid({Eigen::Vector3d::Zero(), 0.005, Eigen::Vector3i::Constant(16)});
+  std::ranges::fill(grid.cells(), int16_t{-5074});
+  WriteOctomap(grid, file_);
+  // The leaf of 16 cells and the 12 nodes above it.
+  EXPECT_NE(Load().find("size 13\n"), std::string::npos);
+  EXPECT_EQ(ReadOctomap(file_, grid.shape()), grid);
+}
+
 TEST_F(OctomapExchange, AMissingOrForeignFileIsRefused) {
   const GridShape shape = MakeGrid().shape();
   EXPECT_THROW((void)ReadOctomap(file_, shape), ConfigError);

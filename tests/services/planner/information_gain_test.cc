@@ -124,6 +124,29 @@ TEST(InformationGain, AWallOccludesWhatIsBehind) {
   EXPECT_EQ(gain.Calc(half, path, kAllBeams), gain.Calc(wall_and_more, path, kAllBeams));
 }
 
+TEST(InformationGain, CountsUpToTheLargestDepthOfEachBeam) {
+  // Every beam ends at the depth of 0.5 m, in the middle of layer 15.
+  const Profiler profiler;
+  const InformationGain gain(profiler);
+  ScanPath path = MakePath(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), 0.0);
+  path.X_WS_start.translation() = path.X_WS_end.translation() = Eigen::Vector3d(0.0011, -0.5225, 0.0011);
+  const auto calc_with_unknown_layer = [&](int layer) {
+    VoxelGrid grid = MakeUnknownBox();
+    for (int z = 0; z < 40; ++z) {
+      for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < 40; ++x)
+          grid.cells()[grid.shape().Index(x, y, z)] = y == layer ? kUnobserved : int16_t{-32767};
+      }
+    }
+    return ToNats(gain.Calc(grid, path, kAllBeams));
+  };
+  int beams = 0;
+  for (const Eigen::Vector3d& beam_S : CalcBeamDirections_S(profiler))
+    beams += std::abs(beam_S.x() / beam_S.z()) < 0.19;
+  EXPECT_GE(calc_with_unknown_layer(15), 0.999 * beams * std::numbers::ln2);
+  EXPECT_EQ(calc_with_unknown_layer(16), 0.0);
+}
+
 TEST(InformationGain, NeverGrowsWhenACellGetsSurer) {
   const InformationGain gain{Profiler{}};
   std::mt19937_64 engine(2);

@@ -156,6 +156,28 @@ TEST(MapUpdate, ObliqueScansDoNotEatTheSurface) {
   }
 }
 
+TEST(MapUpdate, PassesDoNotWeakenACellInAScanThatHitIt) {
+  const Profiler profiler;
+  MapUpdate map(MakeShape(), profiler);
+  Stripe near = MakeWallStripe(profiler, 0.0025);
+  for (float& range : near.ranges_m) range -= 0.05F;
+  map.Insert(near);
+  const int16_t after_hit = map.grid().At(30, 20, 30);
+  for (int i = 0; i < 10; ++i) map.Insert(MakeWallStripe(profiler, 0.0025));
+  EXPECT_EQ(map.grid().At(30, 20, 30), after_hit);
+}
+
+TEST(MapUpdate, FreesUpToTheCellBeforeThatOfZMinusKSigma) {
+  // The wall stands 0.5 mm behind a face, 3 sigma are 0.69 mm: the cell before the face is left alone.
+  const Profiler profiler;
+  MapUpdate map(MakeShape(), profiler);
+  map.Insert(MakeStripe(profiler, {0.0, -0.3, 0.0025}, Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(),
+                        {0.0, 0.0005, 0.0}, Eigen::Vector3d::UnitY()));
+  EXPECT_TRUE(IsOccupied(map.grid().At(30, 30, 30)));
+  EXPECT_EQ(map.grid().At(30, 29, 30), kUnobserved);
+  EXPECT_EQ(map.grid().At(30, 28, 30), -2048);
+}
+
 TEST(MapUpdate, TwoScansThatPassACellAndNeverHitItClearIt) {
   const Profiler profiler;
   MapUpdate map(MakeShape(), profiler);
