@@ -3,7 +3,7 @@
 namespace nbs {
 
 void PoseTrack::Add(const RobotState& state) {
-  const bool same_scan = latest_ && latest_->scan == state.scan && !latest_->end_of_scan;
+  const bool same_scan = latest_ && latest_->scan == state.scan;
   if (same_scan) {
     previous_ = std::move(latest_);
   } else {

@@ -157,6 +157,12 @@ TEST(RunLogic, HolesAreScannedForTheRestOfTheRun) {
   EXPECT_EQ(Find<PlanRequest>(step).mode, PlanMode::kHole);
 }
 
+TEST(RunLogic, TheNextRequestIsLaterThanTheMesh) {
+  const RunStep step = Advance(kSettings, MakeState(Awaiting::kMeshScan, 3, PlanMode::kBoundary), MakeMesh(3, 0.9));
+  EXPECT_EQ(Find<PlanRequest>(step).utime_us, 901);
+  EXPECT_EQ(Find<RunState>(step).utime_us, 901);
+}
+
 TEST(RunLogic, WhatIsNotAwaitedThrows) {
   EXPECT_THROW(Advance(kSettings, MakeState(Awaiting::kMeshScan, 3, PlanMode::kBoundary),
                        MakePlan(3, PlanMode::kBoundary, true)),

@@ -139,6 +139,14 @@ TEST(SensorNode, RefusesAProfileBeforeTheFirstState) {
   EXPECT_EQ(feeder.FindComplaint("profile_without_pose"), 1);
 }
 
+TEST(SensorNode, RefusesAProfileOfAScanThatIsClosed) {
+  Feeder feeder;
+  const auto stripes = feeder.Run({MakeProfile(0), MakeClosing(30), MakeProfile(60)},
+                                  {MakeState(0, 0), MakeState(40, 0), MakeState(80, 0, true)});
+  EXPECT_EQ(stripes.size(), 2u);
+  EXPECT_EQ(feeder.FindComplaint("profile_without_pose"), 1);
+}
+
 TEST(SensorNode, RefusesAProfileBetweenTwoScans) {
   Feeder feeder;
   const auto stripes = feeder.Run({MakeProfile(0), MakeClosing(40), MakeProfile(100)},
