@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <bit>
 #include <concepts>
 #include <cstdint>
@@ -50,8 +51,9 @@ class WireWriter {
  private:
   template <std::unsigned_integral U>
   void Put(U value) {
-    for (int shift = 8 * (sizeof(U) - 1); shift >= 0; shift -= 8)
-      bytes_.push_back(static_cast<uint8_t>(value >> shift));
+    std::array<uint8_t, sizeof(U)> big_endian;
+    for (size_t i = 0; i < sizeof(U); ++i) big_endian[i] = static_cast<uint8_t>(value >> (8 * (sizeof(U) - 1 - i)));
+    bytes_.insert(bytes_.end(), big_endian.begin(), big_endian.end());
   }
   [[noreturn]] static void Overflow();
 
@@ -112,8 +114,10 @@ class WireReader {
       return 0;
     }
     U value = 0;
-    for (size_t i = 0; i < sizeof(U); ++i)
-      value = static_cast<U>((static_cast<uint64_t>(value) << 8) | data_[position_++]);
+    for (size_t i = 0; i < sizeof(U); ++i) {
+      value = static_cast<U>(value | static_cast<U>(static_cast<U>(data_[position_ + i]) << (8 * (sizeof(U) - 1 - i))));
+    }
+    position_ += sizeof(U);
     return value;
   }
 
