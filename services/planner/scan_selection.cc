@@ -1,0 +1,158 @@
+#include "services/planner/scan_selection.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace nbs {
+namespace {
+
+/// How much is known about a candidate in this round.
+enum class Stage { kBounded, kEstimated, kEvaluated, kChecked };
+
+struct Entry {
+  RatedCandidate rated;
+  Stage stage = Stage::kBounded;
+  bool partly = false;
+};
+
+/// Candidates that are estimated in one go, so that threads have something to share.
+constexpr size_t kBatch = 64;
+
+/// Order of a heap: the highest gain on top, of equals the oldest.
+bool IsWorse(const Entry& a, const Entry& b) {
+  if (a.rated.gain_nat != b.rated.gain_nat) return a.rated.gain_nat < b.rated.gain_nat;
+  return a.rated.candidate.id > b.rated.candidate.id;
+}
+
+bool StaysOnStack(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kReachable:
+    case Verdict::kPartly:
+    case Verdict::kBlockedByUnknown:
+    case Verdict::kNoMotion:
+    case Verdict::kNotTried:
+      return true;
+    default:
+      return false;
+  }
+}
+
+class Heap {
+ public:
+  void Push(Entry entry) {
+    entries_.push_back(std::move(entry));
+    std::push_heap(entries_.begin(), entries_.end(), IsWorse);
+  }
+  Entry Pop() {
+    std::pop_heap(entries_.begin(), entries_.end(), IsWorse);
+    Entry entry = std::move(entries_.back());
+    entries_.pop_back();
+    return entry;
+  }
+  bool empty() const { return entries_.empty(); }
+  const Entry& top() const { return entries_.front(); }
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+/// Estimates the candidates on top that only have a bound from an earlier round.
+void EstimateTop(const SelectionTools& tools, Heap& heap) {
+  std::vector<Entry> entries;
+  std::vector<ScanPath> paths;
+  while (!heap.empty() && heap.top().stage == Stage::kBounded && entries.size() < kBatch) {
+    entries.push_back(heap.Pop());
+    paths.push_back(entries.back().rated.candidate.path);
+  }
+  const std::vector<double> gains_nat = tools.estimate_gains(paths);
+  for (size_t i = 0; i < entries.size(); ++i) {
+    entries[i].rated.gain_nat = gains_nat.at(i);
+    entries[i].stage = Stage::kEstimated;
+    heap.Push(std::move(entries[i]));
+  }
+}
+
+/// Takes the top candidate one stage further. True if it is the next best scan; otherwise it is back on the heap or,
+/// with its verdict, in `result.rated`.
+bool Advance(Entry entry, double min_gain_nat, const SelectionTools& tools, Heap& heap, ScanSelection::Result& result) {
+  RatedCandidate& rated = entry.rated;
+  const auto reject = [&](Verdict verdict) {
+    rated.verdict = verdict;
+    result.rated.push_back(std::move(rated));
+    return false;
+  };
+  if (rated.gain_nat < min_gain_nat) return reject(Verdict::kNoGain);
+  if (entry.stage == Stage::kEstimated) {
+    rated.gain_nat = tools.calc_gain(rated.candidate.path);
+    entry.stage = Stage::kEvaluated;
+    heap.Push(std::move(entry));
+    return false;
+  }
+  if (entry.stage == Stage::kEvaluated) {
+    const SelectionTools::Check check = tools.check_path(rated.candidate.path);
+    if (check.verdict != Verdict::kReachable && check.verdict != Verdict::kPartly) return reject(check.verdict);
+    entry.stage = Stage::kChecked;
+    if (check.verdict == Verdict::kPartly) {
+      entry.partly = true;
+      rated.candidate.path = check.path;
+      rated.gain_nat = tools.calc_gain(check.path);
+    }
+    heap.Push(std::move(entry));
+    return false;
+  }
+  SelectionTools::Motion motion = tools.plan_motion(rated.candidate.path);
+  if (motion.verdict != Verdict::kReachable) return reject(motion.verdict);
+  rated.verdict = Verdict::kChosen;
+  rated.candidate.path = motion.path;
+  result.found = true;
+  result.chosen = rated;
+  result.trajectory = std::move(motion.trajectory);
+  result.rated.push_back(std::move(rated));
+  return true;
+}
+
+}  // namespace
+
+void ScanSelection::Add(std::span<const Candidate> candidates) {
+  for (const Candidate& candidate : candidates) stack_.push_back({candidate, std::numeric_limits<double>::infinity()});
+}
+
+void ScanSelection::Drop(CandidateSource source) {
+  for (const Bounded& bounded : stack_) {
+    if (bounded.candidate.source == source) dropped_.push_back({bounded.candidate, 0.0, Verdict::kDropped});
+  }
+  std::erase_if(stack_, [source](const Bounded& bounded) { return bounded.candidate.source == source; });
+}
+
+ScanSelection::Result ScanSelection::Select(const SelectionTools& tools) {
+  Result result;
+  result.rated = std::exchange(dropped_, {});
+  Heap heap;
+  for (const Bounded& bounded : stack_) heap.Push({{bounded.candidate, bounded.gain_nat, Verdict::kNotTried}});
+  while (!heap.empty() && !result.found) {
+    if (heap.top().stage == Stage::kBounded && heap.top().rated.gain_nat >= min_gain_nat_) {
+      EstimateTop(tools, heap);
+    } else {
+      Advance(heap.Pop(), min_gain_nat_, tools, heap, result);
+    }
+  }
+  while (!heap.empty()) {
+    Entry entry = heap.Pop();
+    if (entry.rated.gain_nat < min_gain_nat_) {
+      entry.rated.verdict = Verdict::kNoGain;
+    } else if (entry.stage == Stage::kChecked) {
+      entry.rated.verdict = entry.partly ? Verdict::kPartly : Verdict::kReachable;
+    }
+    result.rated.push_back(std::move(entry.rated));
+  }
+
+  stack_.clear();
+  for (const RatedCandidate& rated : result.rated) {
+    if (StaysOnStack(rated.verdict)) stack_.push_back({rated.candidate, rated.gain_nat});
+  }
+  std::ranges::sort(stack_, {}, [](const Bounded& bounded) { return bounded.candidate.id; });
+  return result;
+}
+
+}  // namespace nbs

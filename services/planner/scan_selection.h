@@ -1,0 +1,81 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/planning/scan_path.h"
+
+namespace nbs {
+
+/// What the selection needs to know about scan paths; given as functions so that it can be tested with made-up answers.
+struct SelectionTools {
+  /// Information gain (eq. 2), nats, of each path, estimated from a part of the beams.
+  std::function<std::vector<double>(std::span<const ScanPath>)> estimate_gains;
+  /// Information gain, nats, of one path from all its beams.
+  std::function<double(const ScanPath&)> calc_gain;
+
+  /// Whether the sensor can run along a path: kReachable, kPartly (then `path` is the longest part that can be reached)
+  /// or what blocks it.
+  struct Check {
+    Verdict verdict = Verdict::kReachable;
+    ScanPath path;
+  };
+  std::function<Check(const ScanPath&)> check_path;
+
+  /// The motion from where the robot is, over the whole path: kReachable with a trajectory, or kNoMotion.
+  struct Motion {
+    Verdict verdict = Verdict::kNoMotion;
+    ScanPath path;  ///< As driven: the path itself, or reversed.
+    Trajectory trajectory;
+  };
+  std::function<Motion(const ScanPath&)> plan_motion;
+};
+
+/// Selection of the next best scan from the stack (sections III-D and III-E): the candidate of highest information gain
+/// that the robot can reach.
+class ScanSelection {
+ public:
+  /// @param min_gain_nat  A candidate that promises less is discarded, >= 0.
+  explicit ScanSelection(double min_gain_nat) : min_gain_nat_(min_gain_nat) {}
+
+  /// Puts candidates on the stack, where they stay over rounds until they are chosen or discarded.
+  void Add(std::span<const Candidate> candidates);
+
+  /// Takes the candidates of a source off the stack.
+  void Drop(CandidateSource source);
+
+  size_t stack_size() const { return stack_.size(); }
+
+  struct Result {
+    bool found = false;
+    RatedCandidate chosen;  ///< Valid when found.
+    Trajectory trajectory;  ///< Valid when found.
+    std::vector<RatedCandidate>
+        rated;  ///< Every candidate of the round, those dropped since the last round first; then by falling gain.
+  };
+
+  /// Rates the whole stack and selects.
+  ///
+  /// Lazy greedy (Minoux, "Accelerated greedy algorithms for maximizing submodular set functions", 1978,
+  /// DOI 10.1007/BFb0006528): what a scan makes known can only lower a gain, so that a candidate's gain of an earlier
+  /// round bounds today's, and only those whose bound is on top are estimated again. From the top, each is then
+  /// evaluated with all beams, checked, and given a motion, until one is left that no other can surpass. A candidate of
+  /// which only a part can be reached competes with the gain of that part. Ties go to the older candidate. Off the
+  /// stack go: the chosen one, and those blocked by an obstacle, outside of the work space, or without gain. Those
+  /// blocked by unknown space or without a motion stay.
+  Result Select(const SelectionTools& tools);
+
+ private:
+  struct Bounded {
+    Candidate candidate;
+    double gain_nat = 0.0;  ///< The last that is known: an upper bound; infinite for a new candidate.
+  };
+
+  double min_gain_nat_;
+  std::vector<Bounded> stack_;
+  std::vector<RatedCandidate> dropped_;
+};
+
+}  // namespace nbs

@@ -1,0 +1,157 @@
+#include "services/planner/scan_selection.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace nbs {
+namespace {
+
+/// A world in which a candidate's path is told by its length, and in which gains and verdicts are tables by that length
+/// in millimetres.
+struct MadeUpWorld {
+  std::map<int, double> gains;
+  std::map<int, Verdict> checks;
+  std::map<int, int> parts;  ///< Length of the part that can be reached.
+  int motions_planned = 0;
+  int estimates = 0;
+
+  static int Key(const ScanPath& path) { return static_cast<int>(std::lround(1000.0 * path.length_m())); }
+
+  static ScanPath MakePath(int length_mm) {
+    ScanPath path;
+    path.X_WS_end.translation().x() = 1e-3 * length_mm;
+    return path;
+  }
+
+  SelectionTools MakeTools() {
+    SelectionTools tools;
+    tools.estimate_gains = [this](std::span<const ScanPath> paths) {
+      std::vector<double> estimated;
+      for (const ScanPath& path : paths) estimated.push_back(gains.at(Key(path)));
+      estimates += static_cast<int>(paths.size());
+      return estimated;
+    };
+    tools.calc_gain = [this](const ScanPath& path) { return gains.at(Key(path)); };
+    tools.check_path = [this](const ScanPath& path) {
+      SelectionTools::Check check{Verdict::kReachable, path};
+      if (const auto found = checks.find(Key(path)); found != checks.end()) check.verdict = found->second;
+      if (check.verdict == Verdict::kPartly) check.path = MakePath(parts.at(Key(path)));
+      return check;
+    };
+    tools.plan_motion = [this](const ScanPath& path) {
+      ++motions_planned;
+      return SelectionTools::Motion{Verdict::kReachable, path, {}};
+    };
+    return tools;
+  }
+};
+
+std::vector<Candidate> MakeCandidates(const std::vector<int>& lengths_mm,
+                                      CandidateSource source = CandidateSource::kBoundary) {
+  std::vector<Candidate> candidates;
+  for (int length_mm : lengths_mm) {
+    candidates.push_back({static_cast<int32_t>(candidates.size()), source, 0, 0, MadeUpWorld::MakePath(length_mm)});
+  }
+  return candidates;
+}
+
+TEST(ScanSelection, TheHighestGainThatCanBeReachedWins) {
+  MadeUpWorld world;
+  world.gains = {{100, 5.0}, {200, 9.0}, {300, 7.0}};
+  world.checks = {{200, Verdict::kBlockedByUnknown}};
+  ScanSelection selection(1.0);
+  selection.Add(MakeCandidates({100, 200, 300}));
+  const auto result = selection.Select(world.MakeTools());
+  ASSERT_TRUE(result.found);
+  EXPECT_EQ(result.chosen.candidate.id, 2);
+  EXPECT_EQ(world.motions_planned, 1);
+}
+
+TEST(ScanSelection, BlockedByUnknownStaysAndBlockedByAnObstacleGoes) {
+  MadeUpWorld world;
+  world.gains = {{100, 5.0}, {200, 9.0}, {300, 7.0}};
+  world.checks = {
+      {100, Verdict::kBlockedByUnknown}, {200, Verdict::kBlockedByObstacle}, {300, Verdict::kBlockedByUnknown}};
+  ScanSelection selection(1.0);
+  selection.Add(MakeCandidates({100, 200, 300}));
+  EXPECT_FALSE(selection.Select(world.MakeTools()).found);
+  EXPECT_EQ(selection.stack_size(), 2u);
+  world.checks.clear();
+  EXPECT_EQ(selection.Select(world.MakeTools()).chosen.candidate.id, 2);
+}
+
+TEST(ScanSelection, APartCompetesWithTheGainOfThePart) {
+  MadeUpWorld world;
+  world.gains = {{100, 5.0}, {400, 9.0}, {50, 3.0}};
+  world.checks = {{400, Verdict::kPartly}};
+  world.parts = {{400, 50}};
+  ScanSelection selection(1.0);
+  selection.Add(MakeCandidates({100, 400}));
+  const auto first = selection.Select(world.MakeTools());
+  EXPECT_EQ(first.chosen.candidate.id, 0);
+  const auto second = selection.Select(world.MakeTools());
+  EXPECT_EQ(MadeUpWorld::Key(second.chosen.candidate.path), 50);
+  EXPECT_DOUBLE_EQ(second.chosen.gain_nat, 3.0);
+}
+
+TEST(ScanSelection, EachCandidateGetsExactlyOneVerdictARound) {
+  MadeUpWorld world;
+  world.gains = {{100, 5.0}, {200, 9.0}, {300, 7.0}, {400, 0.5}};
+  ScanSelection selection(1.0);
+  selection.Add(MakeCandidates({100, 200, 300, 400}));
+  const auto result = selection.Select(world.MakeTools());
+  ASSERT_EQ(result.rated.size(), 4u);
+  std::map<Verdict, int> counts;
+  for (const RatedCandidate& rated : result.rated) ++counts[rated.verdict];
+  EXPECT_EQ(counts[Verdict::kChosen], 1);
+  EXPECT_EQ(counts[Verdict::kNoGain], 1);
+  EXPECT_EQ(counts[Verdict::kNotTried], 2);
+}
+
+TEST(ScanSelection, OnlyCandidatesWhoseOldGainIsOnTopAreEstimatedAgain) {
+  MadeUpWorld world;
+  std::vector<int> lengths_mm;
+  for (int length_mm = 1; length_mm <= 500; ++length_mm) {
+    lengths_mm.push_back(length_mm);
+    world.gains[length_mm] = 1000.0 + length_mm;
+  }
+  ScanSelection selection(1.0);
+  selection.Add(MakeCandidates(lengths_mm));
+  EXPECT_EQ(selection.Select(world.MakeTools()).chosen.candidate.id, 499);
+  EXPECT_EQ(world.estimates, 500);
+  // The gains of the upper half collapse: the best is then the highest of the lower half.
+  for (int length_mm = 251; length_mm <= 500; ++length_mm) world.gains[length_mm] = 2.0;
+  world.estimates = 0;
+  EXPECT_EQ(selection.Select(world.MakeTools()).chosen.candidate.id, 249);
+  EXPECT_LT(world.estimates, 350);
+}
+
+TEST(ScanSelection, OfEqualGainsTheOlderWins) {
+  MadeUpWorld world;
+  world.gains = {{100, 5.0}, {200, 5.0}};
+  ScanSelection selection(1.0);
+  selection.Add(MakeCandidates({200, 100}));
+  EXPECT_EQ(selection.Select(world.MakeTools()).chosen.candidate.id, 0);
+}
+
+TEST(ScanSelection, DroppedCandidatesAreReportedOnceAndNeverChosen) {
+  MadeUpWorld world;
+  world.gains = {{100, 5.0}};
+  ScanSelection selection(1.0);
+  selection.Add(MakeCandidates({100}));
+  selection.Drop(CandidateSource::kBoundary);
+  const auto first = selection.Select(world.MakeTools());
+  EXPECT_FALSE(first.found);
+  ASSERT_EQ(first.rated.size(), 1u);
+  EXPECT_EQ(first.rated[0].verdict, Verdict::kDropped);
+  EXPECT_TRUE(selection.Select(world.MakeTools()).rated.empty());
+}
+
+TEST(ScanSelection, AnEmptyStackGivesNothing) {
+  MadeUpWorld world;
+  EXPECT_FALSE(ScanSelection(1.0).Select(world.MakeTools()).found);
+}
+
+}  // namespace
+}  // namespace nbs
