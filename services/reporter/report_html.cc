@@ -1,0 +1,178 @@
+#include "services/reporter/report_html.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "services/reporter/svg_plot.h"
+
+namespace nbs {
+namespace {
+
+constexpr const char* kStyle = R"(
+body { font: 15px/1.45 system-ui, sans-serif; margin: 2em auto; max-width: 1240px; padding: 0 1em; color: #222; }
+h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
+table { border-collapse: collapse; } th, td { padding: 3px 10px; text-align: right; border-bottom: 1px solid #ddd; }
+th { background: #f3f3f3; } td.text, th.text { text-align: left; }
+.plots, .pictures { display: flex; flex-wrap: wrap; gap: 16px; } .plot { width: 580px; } .plot text { font: 11px sans-serif; }
+.grid { stroke: #e4e4e4; } figure { margin: 0; width: 290px; } figure img { width: 100%; } figcaption { text-align: center; color: #666; }
+.bad { color: #b00020; }
+)";
+
+/// What a verdict means and what becomes of the candidate.
+const char* Explain(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kChosen:
+      return "scanned";
+    case Verdict::kReachable:
+      return "can be scanned; another promised more; stays on the stack";
+    case Verdict::kPartly:
+      return "only part of its path can be reached; that part stays on the stack";
+    case Verdict::kBlockedByObstacle:
+      return "the sensor would touch something occupied; discarded";
+    case Verdict::kBlockedByUnknown:
+      return "the sensor would enter unknown space; kept for a later round";
+    case Verdict::kNoMotion:
+      return "the path is free, but no collision-free motion to it was found; kept";
+    case Verdict::kOutOfWorkspace:
+      return "outside the limits of the robot; discarded";
+    case Verdict::kNoGain:
+      return "its information gain is below the threshold; discarded";
+    case Verdict::kNotTried:
+      return "ranked below the chosen one; reachability not looked at; stays on the stack";
+    case Verdict::kDropped:
+      return "boundary candidate dropped at the switch to holes";
+  }
+  return "";
+}
+
+std::string Base64(const std::string& bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    const size_t left = std::min<size_t>(3, bytes.size() - i);
+    uint32_t group = 0;
+    for (size_t k = 0; k < left; ++k) group |= static_cast<uint8_t>(bytes[i + k]) << (16 - 8 * k);
+    for (size_t digit = 0; digit < 4; ++digit) text += digit <= left ? kDigits[(group >> (18 - 6 * digit)) & 63] : '=';
+  }
+  return text;
+}
+
+std::string Percent(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
+
+std::string MakeSummary(const RunConfig& config, const RunRecord& record, double wall_s) {
+  std::string rows;
+  const auto row = [&](const std::string& name, const std::string& value) {
+    rows += fmt::format("<tr><td class='text'>{}</td><td class='text'>{}</td></tr>\n", name, EscapeHtml(value));
+  };
+  row("method", config.method);
+  row("object", config.object);
+  row("cell, seed, version", fmt::format("{}, {}, {}", config.cell.name, config.seed, config.version));
+  row("ended because", record.detail.empty() ? record.end_reason : record.end_reason + ": " + record.detail);
+  row("scans, path length", fmt::format("{}, {:.2f} m", record.scans.size(), CalcPathLength(record)));
+  if (!record.scans.empty()) {
+    const ScanRecord& last = record.scans.back();
+    row("mesh completeness (eq. 3)",
+        fmt::format("{}; rim {:.2f} m; {} triangles", Percent(last.completeness), last.rim_length_m, last.triangles));
+    if (last.evaluation) {
+      row("coverage", fmt::format("{} of the surface, {} of what the profiler can see",
+                                  Percent(last.evaluation->coverage), Percent(last.evaluation->observable_coverage)));
+      row("RMS error of the vertices", fmt::format("{:.3f} mm", 1e3 * last.evaluation->rmse_m));
+    }
+    row("robot time", fmt::format("{:.0f} s", 1e-6 * static_cast<double>(last.scanned_utime_us)));
+  }
+  if (const auto mean_s = CalcMeanSelection(record)) row("mean selection", fmt::format("{:.3f} s", *mean_s));
+  row("wall time", fmt::format("{:.1f} s", wall_s));
+  row("refused measurements", fmt::format("{}", record.refused_measurements));
+  return "<table>\n" + rows + "</table>\n";
+}
+
+std::string MakePlot(const RunRecord& record, const std::string& x_label, bool over_length) {
+  PlotCurve coverage{"coverage", "#1565c0", {}};
+  PlotCurve completeness{"mesh completeness", "#2e7d32", {}};
+  double length_m = 0.0, lowest = 100.0, x = 0.0;
+  for (const ScanRecord& scan : record.scans) {
+    length_m += scan.path.length_m();
+    x = over_length ? length_m : scan.scan + 1;
+    completeness.points.emplace_back(x, 100.0 * scan.completeness);
+    if (scan.evaluation) coverage.points.emplace_back(x, 100.0 * scan.evaluation->coverage);
+    lowest =
+        std::min({lowest, completeness.points.back().second, scan.evaluation ? coverage.points.back().second : 100.0});
+  }
+  const PlotAxes axes{x_label, "%", 0.0, std::max(x, 0.1), std::clamp(10.0 * std::floor(lowest / 10.0), 0.0, 90.0),
+                      100.0};
+  std::vector<PlotCurve> curves = {completeness};
+  if (!coverage.points.empty()) curves.push_back(coverage);
+  return MakeSvgPlot(axes, curves);
+}
+
+std::string MakeScanTable(const RunRecord& record) {
+  std::string html =
+      "<table><tr><th>scan</th><th class='text'>source</th><th>gain nat</th><th>path "
+      "m</th><th>stripes</th><th>selection ms</th>"
+      "<th>completeness</th><th>rim m</th><th>coverage</th><th>triangles</th><th>candidates</th><th "
+      "class='text'>verdicts</th></tr>\n";
+  for (const ScanRecord& scan : record.scans) {
+    std::string verdicts;
+    for (int v = 0; v < kVerdicts; ++v) {
+      if (scan.verdicts[v] == 0) continue;
+      verdicts +=
+          fmt::format("{}{} {}", verdicts.empty() ? "" : ", ", scan.verdicts[v], ToString(static_cast<Verdict>(v)));
+    }
+    html += fmt::format(
+        "<tr><td>{}</td><td "
+        "class='text'>{}</td><td>{:.0f}</td><td>{:.3f}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{:.2f}</td>",
+        scan.scan + 1, ToString(scan.source), scan.gain_nat, scan.path.length_m(), scan.stripes,
+        1e3 * scan.timing.total_s, Percent(scan.completeness), scan.rim_length_m);
+    html += fmt::format("<td>{}</td><td>{}</td><td>{}</td><td class='text'>{}</td></tr>\n",
+                        scan.evaluation ? Percent(scan.evaluation->coverage) : "-", scan.triangles, scan.candidates,
+                        verdicts);
+  }
+  return html + "</table>\n";
+}
+
+std::string MakeVerdictTable(const RunRecord& record) {
+  std::string html =
+      "<table><tr><th class='text'>verdict</th><th>candidates</th><th>after the last scan</th><th "
+      "class='text'>meaning</th></tr>\n";
+  for (int v = 0; v < kVerdicts; ++v) {
+    int sum = 0;
+    for (const ScanRecord& scan : record.scans) sum += scan.verdicts[v];
+    html +=
+        fmt::format("<tr><td class='text'>{}</td><td>{}</td><td>{}</td><td class='text'>{}</td></tr>\n",
+                    ToString(static_cast<Verdict>(v)), sum, record.last_verdicts[v], Explain(static_cast<Verdict>(v)));
+  }
+  return html + "</table>\n";
+}
+
+std::string MakePictures(const std::vector<ReportPicture>& pictures) {
+  std::string html = "<div class='pictures'>\n";
+  for (const ReportPicture& picture : pictures) {
+    html +=
+        fmt::format("<figure><img alt='{0}' src='data:image/png;base64,{1}'><figcaption>{0}</figcaption></figure>\n",
+                    EscapeHtml(picture.caption), Base64(picture.png));
+  }
+  return html + "</div>\n";
+}
+
+}  // namespace
+
+std::string MakeReportHtml(const RunConfig& config, const RunRecord& record, double wall_s,
+                           const std::vector<ReportPicture>& pictures) {
+  std::string html = "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'><title>" + EscapeHtml(config.name) +
+                     "</title><style>" + kStyle + "</style></head><body>\n<h1>Scan of " +
+                     EscapeHtml(config.object.empty() ? "a real object" : config.object) + "</h1>\n";
+  if (record.failed) html += "<p class='bad'>The run failed: " + EscapeHtml(record.detail) + "</p>\n";
+  html += MakeSummary(config, record, wall_s);
+  html += "<h2>The mesh from four sides; red: its border</h2>\n" + MakePictures(pictures);
+  if (!record.scans.empty()) {
+    html += "<h2>Progress</h2>\n<div class='plots'>\n" + MakePlot(record, "scans", false) +
+            MakePlot(record, "path length, m", true) + "</div>\n";
+  }
+  html += "<h2>Scans</h2>\n" + MakeScanTable(record);
+  html += "<h2>What became of the candidates</h2>\n" + MakeVerdictTable(record);
+  return html + "</body></html>\n";
+}
+
+}  // namespace nbs

@@ -1,0 +1,78 @@
+#include "services/reporter/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace nbs {
+namespace {
+
+using nlohmann::ordered_json;
+
+template <typename T>
+ordered_json OrNull(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json MakeVerdicts(const std::array<int, kVerdicts>& counts) {
+  ordered_json verdicts = ordered_json::object();
+  for (int v = 0; v < kVerdicts; ++v) verdicts[std::string(ToString(static_cast<Verdict>(v)))] = counts[v];
+  return verdicts;
+}
+
+ordered_json MakeScan(const ScanRecord& scan) {
+  const bool selected = scan.mode != PlanMode::kFirst;
+  ordered_json json;
+  json["scan"] = scan.scan;
+  json["source"] = ToString(scan.source);
+  json["gain"] = selected ? ordered_json(scan.gain_nat) : ordered_json(nullptr);
+  json["path_length_m"] = scan.path.length_m();
+  json["stripes"] = scan.stripes;
+  json["points"] = scan.points;
+  json["selection_s"] = selected ? ordered_json(scan.timing.total_s) : ordered_json(nullptr);
+  json["selection_split_s"] = {{"update", scan.timing.update_s},
+                               {"candidates", scan.timing.candidates_s},
+                               {"gain", scan.timing.gain_s},
+                               {"motion", scan.timing.motion_s}};
+  json["completeness"] = scan.completeness;
+  json["rim_length_m"] = scan.rim_length_m;
+  json["triangles"] = scan.triangles;
+  json["coverage"] = scan.evaluation ? ordered_json(scan.evaluation->coverage) : ordered_json(nullptr);
+  json["robot_time_s"] = 1e-6 * static_cast<double>(scan.scanned_utime_us);
+  json["candidates"] = scan.candidates;
+  json["verdicts"] = MakeVerdicts(scan.verdicts);
+  return json;
+}
+
+}  // namespace
+
+std::string MakeReportJson(const RunConfig& config, const RunRecord& record, double wall_s) {
+  const ScanRecord* last = record.scans.empty() ? nullptr : &record.scans.back();
+  const Evaluation* evaluation = last != nullptr && last->evaluation ? &*last->evaluation : nullptr;
+  const auto from_last = [&](auto member) {
+    return last != nullptr ? ordered_json(last->*member) : ordered_json(nullptr);
+  };
+  ordered_json json;
+  json["method"] = config.method;
+  json["object"] = config.object.empty() ? ordered_json(nullptr) : ordered_json(config.object);
+  json["cell"] = config.cell.name;
+  json["seed"] = config.seed;
+  json["version"] = config.version;
+  json["end_reason"] = record.end_reason;
+  json["end_detail"] = record.detail;
+  json["n_scans"] = record.scans.size();
+  json["path_length_m"] = CalcPathLength(record);
+  json["mean_selection_s"] = OrNull(CalcMeanSelection(record));
+  json["completeness"] = from_last(&ScanRecord::completeness);
+  json["coverage"] = evaluation ? ordered_json(evaluation->coverage) : ordered_json(nullptr);
+  json["observable_coverage"] = evaluation ? ordered_json(evaluation->observable_coverage) : ordered_json(nullptr);
+  json["rmse_mm"] = evaluation ? ordered_json(1e3 * evaluation->rmse_m) : ordered_json(nullptr);
+  json["rim_length_m"] = from_last(&ScanRecord::rim_length_m);
+  json["triangles"] = from_last(&ScanRecord::triangles);
+  json["wall_s"] = wall_s;
+  json["refused_measurements"] = record.refused_measurements;
+  json["last_verdicts"] = MakeVerdicts(record.last_verdicts);
+  json["scans"] = ordered_json::array();
+  for (const ScanRecord& scan : record.scans) json["scans"].push_back(MakeScan(scan));
+  return json.dump(2) + "\n";
+}
+
+}  // namespace nbs

@@ -1,0 +1,23 @@
+#include "services/reporter/run_record.h"
+
+namespace nbs {
+
+double CalcPathLength(const RunRecord& record) {
+  double length_m = 0.0;
+  for (const ScanRecord& scan : record.scans) length_m += scan.path.length_m();
+  return length_m;
+}
+
+std::optional<double> CalcMeanSelection(const RunRecord& record) {
+  double sum_s = 0.0;
+  int count = 0;
+  for (const ScanRecord& scan : record.scans) {
+    if (scan.mode == PlanMode::kFirst) continue;
+    sum_s += scan.timing.total_s;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum_s / count;
+}
+
+}  // namespace nbs

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/planning/scan_path.h"
+
+namespace nbs {
+
+/// What the truth says about a mesh; known in simulation only. Section IV-B of the paper and sim/coverage.
+struct Evaluation {
+  double coverage = 0.0;             ///< c_o: share of the truth's surface with a partner in the reconstruction.
+  double observable_coverage = 0.0;  ///< The same share of the surface that the profiler can see at all.
+  double rmse_m = 0.0;               ///< Root mean square distance of the vertices from the truth.
+};
+
+/// One scan and the selection before it, in figures.
+struct ScanRecord {
+  int scan = 0;
+  PlanMode mode = PlanMode::kFirst;
+  CandidateSource source = CandidateSource::kFirst;
+  double gain_nat = 0.0;
+  ScanPath path;
+  int stripes = 0;
+  int64_t points = 0;
+  PlanTiming timing;
+  double completeness = 0.0;  ///< Eq. 3, after the scan.
+  double rim_length_m = 0.0;
+  int64_t triangles = 0;
+  std::optional<Evaluation> evaluation;
+  int candidates = 0;
+  std::array<int, kVerdicts> verdicts{};  ///< Candidates by verdict, all rounds before this scan.
+  int64_t scanned_utime_us = 0;           ///< Robot time at the end of the scan.
+};
+
+/// A run as far as it went.
+struct RunRecord {
+  std::vector<ScanRecord> scans;  ///< Complete scans only.
+  std::string end_reason = "interrupted";
+  std::string detail;
+  bool failed = false;
+  int64_t refused_measurements = 0;
+  std::array<int, kVerdicts> last_verdicts{};  ///< Of the rounds after the last scan: why nothing more was scanned.
+};
+
+/// Length of all scan paths, metres (without the motions between them).
+double CalcPathLength(const RunRecord& record);
+
+/// Mean wall-clock duration of a selection, seconds; nullopt if no scan was selected (the first path is set
+/// beforehand).
+std::optional<double> CalcMeanSelection(const RunRecord& record);
+
+}  // namespace nbs

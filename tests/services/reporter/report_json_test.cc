@@ -1,0 +1,67 @@
+#include "services/reporter/report_json.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace nbs {
+namespace {
+
+RunRecord MakeRecord() {
+  RunRecord record;
+  record.end_reason = "scan_limit";
+  for (int i = 0; i < 2; ++i) {
+    ScanRecord scan;
+    scan.scan = i;
+    scan.mode = i == 0 ? PlanMode::kFirst : PlanMode::kBoundary;
+    scan.source = i == 0 ? CandidateSource::kFirst : CandidateSource::kBoundary;
+    scan.path.X_WS_end.translation().x() = 0.5;
+    scan.timing.total_s = 10.0 * i;
+    scan.completeness = 0.9 + 0.05 * i;
+    scan.verdicts[static_cast<size_t>(Verdict::kBlockedByUnknown)] = 3 * i;
+    scan.evaluation = Evaluation{0.5 + 0.25 * i, 0.6, 0.0002};
+    record.scans.push_back(scan);
+  }
+  return record;
+}
+
+TEST(ReportJson, HoldsEveryKeyOfTheContract) {
+  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), 12.5));
+  for (const char* key :
+       {"method", "object", "cell", "seed", "version", "end_reason", "n_scans", "path_length_m", "mean_selection_s",
+        "completeness", "coverage", "observable_coverage", "rmse_mm", "rim_length_m", "triangles", "wall_s", "scans"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  for (const char* key : {"scan", "source", "gain", "path_length_m", "stripes", "selection_s", "completeness",
+                          "coverage", "candidates", "verdicts"}) {
+    EXPECT_TRUE(json["scans"][0].contains(key)) << key;
+  }
+}
+
+TEST(ReportJson, FiguresAreThoseOfTheLastScanAndSumsOfAll) {
+  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), 12.5));
+  EXPECT_EQ(json["n_scans"], 2);
+  EXPECT_DOUBLE_EQ(json["path_length_m"], 1.0);
+  EXPECT_DOUBLE_EQ(json["coverage"], 0.75);
+  EXPECT_DOUBLE_EQ(json["rmse_mm"], 0.2);
+  EXPECT_EQ(json["scans"][1]["verdicts"]["blocked_by_unknown"], 3);
+}
+
+TEST(ReportJson, TheFirstPathIsNoSelection) {
+  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), 12.5));
+  EXPECT_DOUBLE_EQ(json["mean_selection_s"], 10.0);
+  EXPECT_TRUE(json["scans"][0]["selection_s"].is_null());
+}
+
+TEST(ReportJson, WhatDoesNotApplyIsNull) {
+  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, RunRecord{}, 0.0));
+  for (const char* key : {"mean_selection_s", "completeness", "coverage", "observable_coverage", "rmse_mm",
+                          "rim_length_m", "triangles"}) {
+    EXPECT_TRUE(json[key].is_null()) << key;
+  }
+  EXPECT_EQ(json["end_reason"], "interrupted");
+  EXPECT_TRUE(json["scans"].empty());
+}
+
+}  // namespace
+}  // namespace nbs
