@@ -1,0 +1,124 @@
+#include "sim/objects/sdf_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nbs {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// The bounds of ellipsoids and cloths may grow faster than the distance, by no more than this.
+constexpr double kSteepest = 1.6;
+
+/// Minimum of a and b with the corner rounded over the width k; exactly the minimum where they differ by k or more.
+double CalcSmoothMin(double a, double b, double k) {
+  if (k <= 0.0) return std::min(a, b);
+  const double h = std::max(k - std::abs(a - b), 0.0) / k;
+  return std::min(a, b) - 0.25 * k * h * h;
+}
+
+}  // namespace
+
+double Ellipsoid::Distance(const Vector3d& p_P) const {
+  const Vector3d q = p_P.cwiseQuotient(half_axes);
+  const double k0 = q.norm();
+  const double k1 = q.cwiseQuotient(half_axes).norm();
+  return k1 > 0.0 ? k0 * (k0 - 1.0) / k1 : -half_axes.minCoeff();
+}
+
+double RoundCone::Distance(const Vector3d& p_P) const {
+  const double slope = (radius_a - radius_b) / length;
+  const double a = std::sqrt(1.0 - slope * slope);
+  const Vector2d q(std::hypot(p_P.x(), p_P.y()), p_P.z());
+  const double k = -slope * q.x() + a * q.y();
+  if (k < 0.0) return q.norm() - radius_a;
+  if (k > a * length) return (q - Vector2d(0.0, length)).norm() - radius_b;
+  return a * q.x() + slope * q.y() - radius_a;
+}
+
+double Torus::Distance(const Vector3d& p_P) const {
+  return std::hypot(std::hypot(p_P.x(), p_P.y()) - ring_radius, p_P.z()) - tube_radius;
+}
+
+double Cylinder::Distance(const Vector3d& p_P) const {
+  double r = std::hypot(p_P.x(), p_P.y());
+  if (flutes > 0) r += flute_depth * std::pow(std::abs(std::cos(0.5 * flutes * std::atan2(p_P.y(), p_P.x()))), 3.0);
+  const Vector2d d(r - radius + rounding, std::abs(p_P.z()) - half_height + rounding);
+  return std::min(d.maxCoeff(), 0.0) + d.cwiseMax(0.0).norm() - rounding;
+}
+
+double Bowl::Distance(const Vector3d& p_P) const {
+  const double rim_radius = std::sqrt(radius * radius - rim_height * rim_height);
+  const Vector2d q(std::hypot(p_P.x(), p_P.y()), p_P.z());
+  const bool beyond_rim = rim_height * q.x() < rim_radius * q.y();
+  const double to_wall = beyond_rim ? (q - Vector2d(rim_radius, rim_height)).norm() : std::abs(q.norm() - radius);
+  return to_wall - 0.5 * thickness;
+}
+
+double Cloth::Distance(const Vector3d& p_P) const {
+  const double down = std::clamp(0.5 - 0.5 * p_P.z() / half_height, 0.0, 1.0);
+  const double width = half_width * (gather + (1.0 - gather) * down);
+  const double depth = fold_depth * (0.25 + 0.75 * down);
+  const double across = p_P.x() / width;
+  const double phase = 3.14159265358979 * folds * across + 0.9 * std::sin(3.0 * down + 2.0 * across);
+  const double y = p_P.y() - depth * (std::sin(phase) + 0.35 * std::sin(1.7 * phase + 1.0));
+  const double slope = 3.14159265358979 * folds * depth / width;
+  const double scale = 1.0 / std::sqrt(1.0 + slope * slope);
+  const Vector3d d(std::abs(p_P.x()) - width, std::abs(y) * scale - 0.5 * thickness, std::abs(p_P.z()) - half_height);
+  const double rounding = 0.35 * thickness;
+  const Vector3d inner = d.array() + rounding;
+  return std::min(inner.maxCoeff(), 0.0) + inner.cwiseMax(0.0).norm() - rounding;
+}
+
+double SdfShape::Step::Distance(const Vector3d& p_O) const {
+  const Vector3d p_P = X_PO * p_O;
+  double distance = std::visit([&p_P](const auto& s) { return s.Distance(p_P); }, solid);
+  if (seam.ripple > 0.0 && std::abs(distance) < 8.0 * seam.ripple) {
+    const Vector3d q = p_O / seam.ripple_size;
+    distance += seam.ripple * std::sin(3.1 * q.x() + 1.3 * std::sin(2.3 * q.z())) *
+                std::sin(2.9 * q.y() + 1.1 * std::sin(1.9 * q.x())) *
+                std::sin(3.3 * q.z() + 1.2 * std::sin(2.1 * q.y()));
+  }
+  return distance;
+}
+
+std::vector<uint16_t> SdfShape::FindSteps(const Vector3d& p_O, double radius) const {
+  std::vector<uint16_t> found;
+  double running = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < steps_.size(); ++i) {
+    const Step& step = steps_[i];
+    const double distance = step.Distance(p_O);
+    const double margin = step.seam.blend + step.seam.ripple + 2.0 * kSteepest * radius;
+    const double lead = step.cut ? running + distance : distance - running;
+    if (lead > margin) continue;
+    found.push_back(static_cast<uint16_t>(i));
+    running = step.cut ? -CalcSmoothMin(-running, distance, step.seam.blend)
+                       : CalcSmoothMin(running, distance, step.seam.blend);
+  }
+  return found;
+}
+
+double SdfShape::Evaluate(const Vector3d& p_O, std::span<const uint16_t> steps) const {
+  double running = std::numeric_limits<double>::max();
+  for (uint16_t i : steps) {
+    const Step& step = steps_[i];
+    const double distance = step.Distance(p_O);
+    running = step.cut ? -CalcSmoothMin(-running, distance, step.seam.blend)
+                       : CalcSmoothMin(running, distance, step.seam.blend);
+  }
+  return running;
+}
+
+Vector3d SdfShape::CalcGradient(const Vector3d& p_O, std::span<const uint16_t> steps, double step) const {
+  // Differences along the four corners of a tetrahedron.
+  Vector3d gradient = Vector3d::Zero();
+  for (const Vector3d& k : {Vector3d(1, -1, -1), Vector3d(-1, -1, 1), Vector3d(-1, 1, -1), Vector3d(1, 1, 1)}) {
+    gradient += k * Evaluate(p_O + step * k, steps);
+  }
+  return gradient / (4.0 * step);
+}
+
+}  // namespace nbs

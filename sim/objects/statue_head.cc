@@ -1,0 +1,97 @@
+#include <cmath>
+
+#include "sim/directions.h"
+#include "sim/objects/statue_parts.h"
+
+namespace nbs {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The head's own frame: origin in its middle, face towards -y; turned to the figure's left, bowed and tilted a little.
+Pose MakeHeadPose() {
+  Pose X = Pose::Identity();
+  X.translation() = Vector3d(0, -5, 361);
+  X.linear() = (Eigen::AngleAxisd(0.30, Vector3d::UnitZ()) * Eigen::AngleAxisd(0.10, Vector3d::UnitX()) *
+                Eigen::AngleAxisd(0.08, Vector3d::UnitY()))
+                   .toRotationMatrix();
+  return X;
+}
+
+void SculptEye(Sculptor& s, double side) {
+  s.Ball({side * 15.5, -33.6, 2.0}, 8.6, {0.4});
+  const Sculptor::Seam lid{1.2};
+  s.Chain({{side * 7.5, -41.5, 1.5}, {side * 12.0, -42.6, 6.2}, {side * 18.0, -41.6, 6.6}, {side * 24.0, -36.0, 2.0}},
+          {1.5, 1.9, 1.9, 1.4}, lid);
+  s.Chain({{side * 7.5, -41.5, 1.0}, {side * 13.0, -42.0, -3.6}, {side * 19.0, -40.6, -3.4}, {side * 24.0, -36.0, 1.5}},
+          {1.3, 1.5, 1.5, 1.3}, lid);
+  s.CutBall({side * 14.6, -42.6, 2.2}, 2.0, {0.6});
+  s.Chain({{side * 6.0, -44.0, 11.0}, {side * 15.0, -43.5, 15.0}, {side * 26.0, -35.0, 11.5}}, {2.6, 3.2, 2.2}, {5.0});
+}
+
+void SculptNoseAndMouth(Sculptor& s) {
+  s.Limb({0, -41.0, 9.0}, 3.6, {0, -49.0, -8.5}, 5.4, {5.0});
+  s.Ball({-5.6, -45.6, -9.6}, 3.7, {2.5});
+  s.Ball({5.6, -45.6, -9.6}, 3.7, {2.5});
+  s.CutBall({-3.0, -49.0, -14.0}, 1.8, {1.0});
+  s.CutBall({3.0, -49.0, -14.0}, 1.8, {1.0});
+  s.Egg({-4.4, -42.0, -21.0}, {7.4, 4.4, 3.0}, {2.0});
+  s.Egg({4.4, -42.0, -21.0}, {7.4, 4.4, 3.0}, {2.0});
+  s.Egg({0, -41.2, -27.4}, {8.2, 4.6, 3.3}, {2.0});
+  s.CutLimb({0, -47.4, -24.0}, 1.2, {-10.5, -42.6, -23.0}, 1.0, {1.0});
+  s.CutLimb({0, -47.4, -24.0}, 1.2, {10.5, -42.6, -23.0}, 1.0, {1.0});
+  s.CutLimb({0, -48.0, -14.5}, 1.2, {0, -47.0, -19.0}, 1.6, {2.0});
+  s.CutBall({-12.5, -41.0, -23.0}, 1.8, {2.5});
+  s.CutBall({12.5, -41.0, -23.0}, 1.8, {2.5});
+  s.CutLimb({-6, -45, -33.0}, 1.6, {6, -45, -33.0}, 1.6, {4.0});
+}
+
+void SculptEar(Sculptor& s, double side) {
+  s.Egg({side * 40.5, 3, -3}, {4.6, 8.5, 13.0}, {2.0}, Vector3d(side * 0.12, 0.15, 1));
+  s.CutEgg({side * 45.0, 0.5, -1}, {4.0, 5.2, 8.5}, {1.5}, Vector3d(side * 0.12, 0.15, 1));
+  s.Ball({side * 40.0, 0, -14}, 4.2, {2.0});
+}
+
+}  // namespace
+
+void SculptHead(Sculptor& s) {
+  s.SetFrame(MakeHeadPose());
+  s.Egg({0, 5, 8}, {40.5, 45, 41}, {6});
+  s.Egg({0, -9, -8}, {33.5, 34, 36}, {10});
+  s.Egg({0, -22, 18}, {30, 20, 19}, {12});
+  s.Ball({-18.5, -25, -17}, 16.5, {10});
+  s.Ball({18.5, -25, -17}, 16.5, {10});
+  s.Egg({0, -22, -38}, {17, 14, 9}, {8});
+  s.Ball({0, -33.5, -35.5}, 8.5, {7});
+  for (double side : {-1.0, 1.0}) s.CutEgg({side * 15.5, -45.5, 3.0}, {10.5, 9.0, 7.0}, {6});
+  for (double side : {-1.0, 1.0}) SculptEye(s, side);
+  SculptNoseAndMouth(s);
+  for (double side : {-1.0, 1.0}) SculptEar(s, side);
+  s.SetFrame(Pose::Identity());
+}
+
+void SculptHair(Sculptor& s) {
+  s.SetFrame(MakeHeadPose());
+  const Vector3d middle(0, 7, 9), radii(42.0, 46.0, 42.5);
+  s.Egg({0, 10, 13}, {42.0, 44.5, 40.5}, {2.0});
+  const std::vector<Vector3d> directions = MakeSphereDirections(104);
+  for (size_t i = 0; i < directions.size(); ++i) {
+    const Vector3d& d = directions[i];
+    // The hairline: high over the forehead, low in the neck.
+    if (d.z() < -0.02 - 0.62 * -d.y() * (d.y() < 0.0 ? -1.0 : 1.0) && d.z() < 0.9) continue;
+    const Vector3d at = middle + radii.cwiseProduct(d);
+    const Vector3d tilt(0.5 * std::sin(2.4 * i), 0.5 * std::cos(1.7 * i), 0.4 * std::sin(3.3 * i));
+    const double size = 6.6 + 1.1 * std::sin(5.1 * i);
+    s.Ring(at, d + 0.8 * tilt, size, 3.1, {1.2});
+    s.Ball(at + 1.5 * d, 3.0, {1.0});
+    s.Limb(at + size * d.unitOrthogonal(), 3.4, at + 1.9 * size * (d.unitOrthogonal() + 0.5 * tilt) - 2.0 * d, 2.2,
+           {1.5});
+  }
+  // Locks over the forehead.
+  s.Ring({-5, -38, 34}, {0.3, -1, 0.4}, 7.5, 3.4, {1.2});
+  s.Ring({9, -37, 36}, {-0.3, -1, 0.5}, 6.5, 3.2, {1.2});
+  s.Limb({2, -41, 42}, 4.2, {3, -45, 28}, 2.2, {1.5});
+  s.SetFrame(Pose::Identity());
+}
+
+}  // namespace nbs
