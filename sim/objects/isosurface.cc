@@ -82,11 +82,10 @@ Net MakeNet(const SampleGrid& grid) {
 /// One Newton step towards the surface, no longer than one spacing.
 Vector3d StepToSurface(const SdfShape& shape, const SampleGrid& grid, const Vector3d& p, double spacing) {
   const std::vector<uint16_t>& steps = grid.StepsAt(p);
-  const double distance = shape.Evaluate(p, steps);
-  const Vector3d gradient = shape.CalcGradient(p, steps, 0.02 * spacing);
-  const double squared = gradient.squaredNorm();
+  const SdfShape::Slope slope = shape.CalcSlope(p, steps, 0.01 * spacing);
+  const double squared = slope.gradient.squaredNorm();
   if (squared < 1e-3) return p;
-  Vector3d step = -distance / squared * gradient;
+  Vector3d step = -slope.distance / squared * slope.gradient;
   const double length = step.norm();
   if (length > spacing) step *= spacing / length;
   return p + step;

@@ -8,9 +8,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kBlock = 8;
+constexpr int kBlock = 4;   ///< Samples along a block's edge.
+constexpr int kRegion = 6;  ///< Blocks along a region's edge.
 /// A shape's bound may fall short of the distance by this factor.
-constexpr double kSlack = 1.6;
+constexpr double kSlack = 1.3;
 
 /// The corners of a cell are numbered by bits: 1 along x, 2 along y, 4 along z. Its six faces, each in the order
 /// around.
@@ -34,30 +35,53 @@ bool IsCritical(unsigned inside) {
 
 SampleGrid::SampleGrid(const SdfShape& shape, const Eigen::AlignedBox3d& box, double spacing)
     : origin_(box.min()), spacing_(spacing) {
+  std::array<int, 3> regions;
   for (int axis = 0; axis < 3; ++axis) {
-    blocks_[axis] = static_cast<int>(std::ceil(box.sizes()[axis] / (spacing * kBlock))) + 1;
+    regions[axis] = static_cast<int>(std::ceil(box.sizes()[axis] / (spacing * kBlock * kRegion)));
+    blocks_[axis] = regions[axis] * kRegion;
     size_[axis] = blocks_[axis] * kBlock;
   }
   values_.resize(static_cast<size_t>(size_[0]) * size_[1] * size_[2]);
   steps_.resize(static_cast<size_t>(blocks_[0]) * blocks_[1] * blocks_[2]);
-  for (int bz = 0; bz < blocks_[2]; ++bz) {
-    for (int by = 0; by < blocks_[1]; ++by) {
-      for (int bx = 0; bx < blocks_[0]; ++bx) SampleBlock(shape, bx, by, bz);
+  for (int z = 0; z < regions[2]; ++z) {
+    for (int y = 0; y < regions[1]; ++y) {
+      for (int x = 0; x < regions[0]; ++x) SampleRegion(shape, {x, y, z});
     }
   }
 }
 
-void SampleGrid::SampleBlock(const SdfShape& shape, int bx, int by, int bz) {
-  const Vector3d middle = origin_ + spacing_ * kBlock * (Vector3d(bx, by, bz).array() + 0.5).matrix();
+size_t SampleGrid::BlockIndex(const std::array<int, 3>& block) const {
+  return (static_cast<size_t>(block[2]) * blocks_[1] + block[1]) * blocks_[0] + block[0];
+}
+
+void SampleGrid::SampleRegion(const SdfShape& shape, const std::array<int, 3>& region) {
+  constexpr int kSamples = kBlock * kRegion;
+  const Vector3d middle =
+      origin_ + spacing_ * kSamples * (Vector3d(region[0], region[1], region[2]).array() + 0.5).matrix();
+  const double radius = spacing_ * (0.5 * kSamples * std::sqrt(3.0) + 2.0);
+  const std::vector<uint16_t> candidates = shape.FindSteps(middle, radius, shape.AllSteps());
+  for (int z = 0; z < kRegion; ++z) {
+    for (int y = 0; y < kRegion; ++y) {
+      for (int x = 0; x < kRegion; ++x) {
+        SampleBlock(shape, candidates, {region[0] * kRegion + x, region[1] * kRegion + y, region[2] * kRegion + z});
+      }
+    }
+  }
+}
+
+void SampleGrid::SampleBlock(const SdfShape& shape, std::span<const uint16_t> candidates,
+                             const std::array<int, 3>& block) {
+  const Vector3d middle = origin_ + spacing_ * kBlock * (Vector3d(block[0], block[1], block[2]).array() + 0.5).matrix();
   // Two spacings more than the block: vertices move a little when they are relaxed.
   const double radius = spacing_ * (0.5 * kBlock * std::sqrt(3.0) + 2.0);
-  std::vector<uint16_t>& steps = steps_[(static_cast<size_t>(bz) * blocks_[1] + by) * blocks_[0] + bx];
-  steps = shape.FindSteps(middle, radius);
+  std::vector<uint16_t>& steps = steps_[BlockIndex(block)];
+  steps = shape.FindSteps(middle, radius, candidates);
   const double at_middle = shape.Evaluate(middle, steps);
   const bool far = std::abs(at_middle) > kSlack * radius;
-  for (int z = bz * kBlock; z < (bz + 1) * kBlock; ++z) {
-    for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
-      for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
+  if (far) steps.clear();
+  for (int z = block[2] * kBlock; z < (block[2] + 1) * kBlock; ++z) {
+    for (int y = block[1] * kBlock; y < (block[1] + 1) * kBlock; ++y) {
+      for (int x = block[0] * kBlock; x < (block[0] + 1) * kBlock; ++x) {
         values_[Index(x, y, z)] = static_cast<float>(far ? at_middle : shape.Evaluate(Position(x, y, z), steps));
       }
     }
@@ -95,12 +119,12 @@ void SampleGrid::MakeWellComposed() {
 }
 
 const std::vector<uint16_t>& SampleGrid::StepsAt(const Vector3d& p) const {
-  std::array<size_t, 3> block;
+  std::array<int, 3> block;
   for (int axis = 0; axis < 3; ++axis) {
     const double at = std::floor((p[axis] - origin_[axis]) / (spacing_ * kBlock));
-    block[axis] = static_cast<size_t>(std::clamp(at, 0.0, blocks_[axis] - 1.0));
+    block[axis] = static_cast<int>(std::clamp(at, 0.0, blocks_[axis] - 1.0));
   }
-  return steps_[(block[2] * blocks_[1] + block[1]) * blocks_[0] + block[0]];
+  return steps_[BlockIndex(block)];
 }
 
 }  // namespace nbs

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/objects/sdf_shape.h"
@@ -27,7 +28,9 @@ class SampleGrid {
   const std::vector<uint16_t>& StepsAt(const Eigen::Vector3d& p) const;
 
  private:
-  void SampleBlock(const SdfShape& shape, int bx, int by, int bz);
+  void SampleRegion(const SdfShape& shape, const std::array<int, 3>& region);
+  void SampleBlock(const SdfShape& shape, std::span<const uint16_t> candidates, const std::array<int, 3>& block);
+  size_t BlockIndex(const std::array<int, 3>& block) const;
   bool RepairCell(int x, int y, int z);
 
   Eigen::Vector3d origin_;

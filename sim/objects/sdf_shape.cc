@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace nbs {
 namespace {
@@ -11,7 +12,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 /// The bounds of ellipsoids and cloths may grow faster than the distance, by no more than this.
-constexpr double kSteepest = 1.6;
+constexpr double kSteepest = 1.25;
 
 /// Minimum of a and b with the corner rounded over the width k; exactly the minimum where they differ by k or more.
 double CalcSmoothMin(double a, double b, double k) {
@@ -85,18 +86,31 @@ double SdfShape::Step::Distance(const Vector3d& p_O) const {
   return distance;
 }
 
-std::vector<uint16_t> SdfShape::FindSteps(const Vector3d& p_O, double radius) const {
+double SdfShape::Step::Join(double running, double distance) const {
+  return cut ? -CalcSmoothMin(-running, distance, seam.blend) : CalcSmoothMin(running, distance, seam.blend);
+}
+
+std::vector<uint16_t> SdfShape::AllSteps() const {
+  std::vector<uint16_t> all(steps_.size());
+  std::iota(all.begin(), all.end(), uint16_t{0});
+  return all;
+}
+
+std::vector<uint16_t> SdfShape::FindSteps(const Vector3d& p_O, double radius, std::span<const uint16_t> steps) const {
+  // Where the surface is, the last seam to touch it rounds by a quarter of its width: a solid farther off than 5/4 of
+  // every later seam is no part of it.
+  std::vector<double> widest(steps.size() + 1, 0.0);
+  for (size_t n = steps.size(); n-- > 0;) widest[n] = std::max(widest[n + 1], steps_[steps[n]].seam.blend);
   std::vector<uint16_t> found;
-  double running = std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < steps_.size(); ++i) {
-    const Step& step = steps_[i];
+  double running = std::numeric_limits<double>::max();
+  for (size_t n = 0; n < steps.size(); ++n) {
+    const Step& step = steps_[steps[n]];
     const double distance = step.Distance(p_O);
-    const double margin = step.seam.blend + step.seam.ripple + 2.0 * kSteepest * radius;
+    if (distance > 1.25 * widest[n] + step.seam.ripple + kSteepest * radius) continue;
     const double lead = step.cut ? running + distance : distance - running;
-    if (lead > margin) continue;
-    found.push_back(static_cast<uint16_t>(i));
-    running = step.cut ? -CalcSmoothMin(-running, distance, step.seam.blend)
-                       : CalcSmoothMin(running, distance, step.seam.blend);
+    if (lead > step.seam.blend + step.seam.ripple + 2.0 * kSteepest * radius) continue;
+    found.push_back(steps[n]);
+    running = step.Join(running, distance);
   }
   return found;
 }
@@ -106,19 +120,18 @@ double SdfShape::Evaluate(const Vector3d& p_O, std::span<const uint16_t> steps) 
   for (uint16_t i : steps) {
     const Step& step = steps_[i];
     const double distance = step.Distance(p_O);
-    running = step.cut ? -CalcSmoothMin(-running, distance, step.seam.blend)
-                       : CalcSmoothMin(running, distance, step.seam.blend);
+    running = step.Join(running, distance);
   }
   return running;
 }
 
-Vector3d SdfShape::CalcGradient(const Vector3d& p_O, std::span<const uint16_t> steps, double step) const {
-  // Differences along the four corners of a tetrahedron.
-  Vector3d gradient = Vector3d::Zero();
-  for (const Vector3d& k : {Vector3d(1, -1, -1), Vector3d(-1, -1, 1), Vector3d(-1, 1, -1), Vector3d(1, 1, 1)}) {
-    gradient += k * Evaluate(p_O + step * k, steps);
+SdfShape::Slope SdfShape::CalcSlope(const Vector3d& p_O, std::span<const uint16_t> steps, double step) const {
+  Slope slope;
+  slope.distance = Evaluate(p_O, steps);
+  for (int axis = 0; axis < 3; ++axis) {
+    slope.gradient[axis] = (Evaluate(p_O + step * Vector3d::Unit(axis), steps) - slope.distance) / step;
   }
-  return gradient / (4.0 * step);
+  return slope;
 }
 
 }  // namespace nbs

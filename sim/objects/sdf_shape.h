@@ -84,14 +84,22 @@ class SdfShape {
     steps_.push_back({solid, X_OP.inverse(), seam, true});
   }
 
-  /// Numbers of the steps that matter in the ball around p_O; the others change nothing there.
-  std::vector<uint16_t> FindSteps(const Eigen::Vector3d& p_O, double radius) const;
+  /// Numbers of all steps.
+  std::vector<uint16_t> AllSteps() const;
+
+  /// Those of the given steps (ascending) that matter for the surface in the ball around p_O: without the others the
+  /// surface there stays as it is.
+  std::vector<uint16_t> FindSteps(const Eigen::Vector3d& p_O, double radius, std::span<const uint16_t> steps) const;
 
   /// Signed distance after the given steps (ascending); a bound of it where seams are rounded.
   double Evaluate(const Eigen::Vector3d& p_O, std::span<const uint16_t> steps) const;
 
-  /// Gradient of Evaluate by differences over `step`.
-  Eigen::Vector3d CalcGradient(const Eigen::Vector3d& p_O, std::span<const uint16_t> steps, double step) const;
+  /// Distance and gradient by forward differences over `step`.
+  struct Slope {
+    double distance = 0.0;
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  };
+  Slope CalcSlope(const Eigen::Vector3d& p_O, std::span<const uint16_t> steps, double step) const;
 
   size_t size() const { return steps_.size(); }
 
@@ -102,6 +110,7 @@ class SdfShape {
     Seam seam;
     bool cut = false;
     double Distance(const Eigen::Vector3d& p_O) const;
+    double Join(double running, double distance) const;
   };
   std::vector<Step> steps_;
 };

@@ -1,0 +1,33 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "sim/prepare/prepare.h"
+
+int main(int argc, char** argv) {
+  nbs::RunRequest request;
+  CLI::App app("Checks what a run is asked to do and makes its folder: run.yaml, streams/, logs/.", "nbs-prepare");
+  app.add_option("--object", request.object, "statue, or a mesh file: PLY, STL or OBJ in metres")
+      ->capture_default_str();
+  app.add_option("--method", request.method, "BH/IG, B/IG, B, S/IG or S")->capture_default_str();
+  app.add_option("--cell", request.cell, "Name of a cell, or a cell file")->capture_default_str();
+  app.add_option("--cells-dir", request.cells_dir, "Folder of the named cells")->default_val(NBS_CELLS_DIR);
+  app.add_option("--completeness", request.completeness, "Wanted mesh completeness")->capture_default_str();
+  app.add_option("--max-scans", request.max_scans, "Ends after so many scans")->capture_default_str();
+  app.add_option("--seed", request.seed, "Seed of everything random")->capture_default_str();
+  app.add_option("--rate", request.rate, "max or realtime")->capture_default_str();
+  app.add_option("--out", request.out, "The run folder to be made")->required();
+  app.add_option("--version", request.version, "Version of the software, for the record");
+  try {
+    app.parse(argc, argv);
+    nbs::PrepareRun(request);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::Error& error) {
+    std::cerr << "nbs-prepare: " << error.what() << " (see nbs-prepare --help)\n";
+    return 1;
+  } catch (const std::exception& error) {
+    std::cerr << "nbs-prepare: " << error.what() << "\n";
+    return 1;
+  }
+  return 0;
+}

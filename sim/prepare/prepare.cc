@@ -1,0 +1,124 @@
+#include "sim/prepare/prepare.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <system_error>
+
+#include "common/runtime/counter_random.h"
+#include "common/runtime/error.h"
+#include "sim/load_object.h"
+#include "sim/mesh_measures.h"
+
+namespace nbs {
+namespace {
+
+constexpr std::array<std::string_view, 5> kMethods = {"BH/IG", "B/IG", "B", "S/IG", "S"};
+constexpr double kSmallest_m = 0.02;
+constexpr double kLargest_m = 5.0;
+
+void CheckNumbers(const RunRequest& request) {
+  if (std::find(kMethods.begin(), kMethods.end(), request.method) == kMethods.end()) {
+    throw ConfigError("Unknown method `" + request.method + "`: use BH/IG, B/IG, B, S/IG or S.");
+  }
+  if (request.rate != "max" && request.rate != "realtime") {
+    throw ConfigError("Unknown rate `" + request.rate + "`: use max or realtime.");
+  }
+  if (!(request.completeness > 0.0 && request.completeness <= 1.0)) {
+    throw ConfigError("The completeness must lie above 0 and not above 1 (0.9875 is 98.75 %), not " +
+                      std::to_string(request.completeness) + ".");
+  }
+  if (request.max_scans < 1 || request.max_scans > 10000) {
+    throw ConfigError("The number of scans must lie between 1 and 10000, not " + std::to_string(request.max_scans) +
+                      ".");
+  }
+}
+
+void CheckFolder(const std::filesystem::path& out) {
+  if (out.empty()) throw ConfigError("The run folder is missing: give --out DIR.");
+  std::error_code error;
+  if (!std::filesystem::exists(out, error)) return;
+  if (!std::filesystem::is_directory(out, error)) throw ConfigError("The run folder " + out.string() + " is a file.");
+  if (std::filesystem::exists(out / "run.yaml", error)) {
+    throw ConfigError("The folder " + out.string() +
+                      " holds an earlier run: choose another --out, or delete it first.");
+  }
+  if (!std::filesystem::is_empty(out, error) || error) {
+    throw ConfigError("The folder " + out.string() + " is not empty: choose another --out.");
+  }
+}
+
+std::filesystem::path FindCellFile(const RunRequest& request) {
+  const std::filesystem::path as_file(request.cell);
+  if (as_file.has_parent_path() || as_file.extension() == ".yaml") return as_file;
+  const std::filesystem::path named = request.cells_dir / (request.cell + ".yaml");
+  if (std::filesystem::exists(named)) return named;
+  std::string known;
+  std::error_code error;
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(request.cells_dir, error)) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+  throw ConfigError("There is no cell `" + request.cell + "` in " + request.cells_dir.string() +
+                    (known.empty() ? "." : " (there are: " + known + ")."));
+}
+
+void CheckSize(const Eigen::AlignedBox3d& box_W, const std::string& object) {
+  const double diagonal_m = box_W.diagonal().norm();
+  if (diagonal_m > kLargest_m) {
+    throw ConfigError("The object " + object + " is " + std::to_string(diagonal_m) +
+                      " m across, which looks like millimetres: scale it by 0.001, meshes are read as metres.");
+  }
+  if (diagonal_m < kSmallest_m) {
+    throw ConfigError("The object " + object + " is only " + std::to_string(1000.0 * diagonal_m) +
+                      " mm across, too small for this sensor: scale it up if its unit is not metres.");
+  }
+}
+
+/// Different for every run; separates runs on one bus and reaches no result.
+int64_t MakeRunId(const std::string& name) {
+  std::random_device device;
+  uint64_t id = (static_cast<uint64_t>(device()) << 32) ^ device();
+  for (const char c : name) id = CalcRandomBits({id, static_cast<uint64_t>(c)});
+  return static_cast<int64_t>(id >> 1);
+}
+
+void MakeFolders(const std::filesystem::path& folder) {
+  std::error_code error;
+  for (const char* part : {"streams", "logs"}) {
+    std::filesystem::create_directories(folder / part, error);
+    if (error) throw ConfigError("Cannot make the run folder " + folder.string() + ": " + error.message() + ".");
+  }
+}
+
+}  // namespace
+
+RunConfig PrepareRun(const RunRequest& request) {
+  CheckNumbers(request);
+  CheckFolder(request.out);
+  RunConfig config;
+  config.folder = std::filesystem::absolute(request.out).lexically_normal();
+  if (!config.folder.has_filename()) config.folder = config.folder.parent_path();
+  config.name = config.folder.filename().string();
+  config.version = request.version;
+  config.method = request.method;
+  config.object = request.object;
+  if (request.object != kStatueName) config.object_file = std::filesystem::absolute(request.object).lexically_normal();
+  config.seed = request.seed;
+  config.completeness = request.completeness;
+  config.max_scans = request.max_scans;
+  config.realtime = request.rate == "realtime";
+  config.cell = ReadCellConfig(FindCellFile(request));
+  const Eigen::AlignedBox3d box_W = CalcBoundingBox(LoadObject(config));
+  CheckSize(box_W, request.object);
+  ResolvePlacement(box_W, config);
+  config.run_id = MakeRunId(config.name);
+  MakeFolders(config.folder);
+  WriteRunConfig(config);
+  return config;
+}
+
+}  // namespace nbs
