@@ -11,16 +11,30 @@ namespace {
 
 constexpr double kSameLength = 1e-9;  // metres
 
-bool IsWhole(const FreeInterval& interval) { return interval == FreeInterval{0.0, 1.0}; }
+/// What FindDrivable found: a path that was swept whole and is free.
+struct Drivable {
+  ScanPath path;
+  bool whole = false;
+};
 
 /// The longest part that is long enough to be worth a scan.
-std::optional<FreeInterval> FindPart(const Sweep& sweep, double length_m, double min_part_m) {
-  if (sweep.is_free()) return FreeInterval{0.0, 1.0};
-  const std::optional<FreeInterval> longest = sweep.FindLongest();
-  if (!longest || longest->length() * length_m < min_part_m - kSameLength) return std::nullopt;
-  // A path without length has no part.
-  if (length_m < min_part_m && !IsWhole(*longest)) return std::nullopt;
-  return longest;
+///
+/// A part is swept again by itself, and cut again if need be: other poses of it are looked at, and with a sensor off
+/// the flange's origin it is another chain of pieces. So what is returned is found free whenever it is looked at again.
+std::optional<Drivable> FindDrivable(const CollisionBody& body_F, const Pose& X_FS, const Clearance& clearance,
+                                     const ScanPath& path, double min_part_m) {
+  constexpr int kCuts = 10;
+  const double wanted_m = std::min(min_part_m, path.length_m()) - kSameLength;
+  ScanPath part = path;
+  for (int cut = 0; cut < kCuts; ++cut) {
+    const Sweep sweep = SweepPath(body_F, clearance, MakeFlangePath(X_FS, part));
+    if (sweep.is_free()) return Drivable{part, cut == 0};
+    const std::optional<FreeInterval> longest = sweep.FindLongest();
+    if (!longest || path.length_m() < min_part_m) return std::nullopt;
+    part = CutPath(part, longest->begin, longest->end);
+    if (part.length_m() < wanted_m) return std::nullopt;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -28,17 +42,11 @@ std::optional<FreeInterval> FindPart(const Sweep& sweep, double length_m, double
 Reach FindReach(const CollisionBody& body_F, const Pose& X_FS, const Clearance& clearance, const ScanPath& path,
                 double min_part_m) {
   const std::array<ScanPath, 2> rolls = {path, RollPath(path)};
-  const double length_m = path.length_m();
   Reach whole{Verdict::kReachable, {}};
   Reach parts{Verdict::kPartly, {}};
   for (const ScanPath& roll : rolls) {
-    const Sweep sweep = SweepPath(body_F, clearance, MakeFlangePath(X_FS, roll));
-    const std::optional<FreeInterval> part = FindPart(sweep, length_m, min_part_m);
-    if (part && sweep.is_free()) {
-      whole.paths.push_back(roll);
-    } else if (part) {
-      parts.paths.push_back(CutPath(roll, part->begin, part->end));
-    }
+    const std::optional<Drivable> drivable = FindDrivable(body_F, X_FS, clearance, roll, min_part_m);
+    if (drivable) (drivable->whole ? whole : parts).paths.push_back(drivable->path);
   }
   if (!whole.paths.empty()) return whole;
   if (!parts.paths.empty()) {
@@ -46,9 +54,9 @@ Reach FindReach(const CollisionBody& body_F, const Pose& X_FS, const Clearance& 
                      [](const ScanPath& a, const ScanPath& b) { return a.length_m() > b.length_m() + kSameLength; });
     return parts;
   }
+  const ObstaclesOnly obstacles(clearance);
   const bool may_open = std::any_of(rolls.begin(), rolls.end(), [&](const ScanPath& roll) {
-    const Sweep sweep = SweepPath(body_F, ObstaclesOnly(clearance), MakeFlangePath(X_FS, roll));
-    return FindPart(sweep, length_m, min_part_m).has_value();
+    return FindDrivable(body_F, X_FS, obstacles, roll, min_part_m).has_value();
   });
   return {may_open ? Verdict::kBlockedByUnknown : Verdict::kBlockedByObstacle, {}};
 }

@@ -19,6 +19,7 @@ struct Reach {
 /// roll lets a part of at least `min_part_m` (all of a shorter path) be driven it is kPartly, with the longest part for
 /// each roll, the longer one first. Else the path is blocked: by an obstacle if no such part would be left even if
 /// everything unknown turned out free, by unknown space if one would. Ties go to the path as it stands.
+/// A part is reachable when it is checked again by itself.
 ///
 /// @param body_F       The body in the flange's frame F.
 /// @param min_part_m   Metres, >= 0.

@@ -169,6 +169,22 @@ TEST(MotionPlanner, CheckAndPlanAgreeOnTheVerdict) {
   }
 }
 
+TEST(MotionPlanner, ThePartOfACheckIsReachableItself) {
+  RunConfig config = MakeFreeRun();
+  config.cell.X_FS =
+      MakePose({0.05, -0.02, 0.12}, Eigen::Quaterniond(Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitX())));
+  const MotionPlanner planner(config);
+  int parts = 0;
+  for (uint64_t k = 0; k < 2000; ++k) {
+    const ScanPath path = {MakeRandomPose(3, k, 0.4), MakeRandomPose(4, k, 0.4)};
+    const PathCheck check = planner.CheckPath(MakeBlockWorld(), path);
+    if (check.verdict != Verdict::kPartly) continue;
+    ++parts;
+    EXPECT_EQ(planner.CheckPath(MakeBlockWorld(), check.path).verdict, Verdict::kReachable) << k;
+  }
+  EXPECT_GT(parts, 500);
+}
+
 TEST(MotionPlanner, RefusesUnknownRobotsAndPosesThatAreNone) {
   RunConfig config = MakeFreeRun();
   config.cell.robot = "walker";
