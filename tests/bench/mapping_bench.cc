@@ -9,6 +9,7 @@
 
 #include "common/mapping/distance_field.h"
 #include "common/mapping/ray_walk.h"
+#include "common/runtime/counter_random.h"
 #include "services/planner/information_gain.h"
 #include "services/voxelmap/map_update.h"
 #include "tests/bench/mapping_workload.h"
@@ -175,6 +176,76 @@ void DistanceFieldBench(benchmark::State& state) {
   }
 }
 BENCHMARK(DistanceFieldBench)->Name("DistanceField")->Unit(benchmark::kMillisecond);
+
+/// Marks the cells that returns of the scans lie in.
+std::vector<uint8_t> MarkHits(const MappingWorkload& workload) {
+  std::vector<uint8_t> marks(workload.shape.cells(), 0);
+  const std::vector<Eigen::Vector3d> directions_S = CalcBeamDirections_S(workload.profiler);
+  for (const std::vector<Stripe>& scan : workload.scans) {
+    for (const Stripe& stripe : scan) {
+      for (const Eigen::Vector3d& p_W : CalcStripeEvidence(workload.profiler, directions_S, 3.0, stripe).hits_W) {
+        if (const int64_t index = FindCell(workload.shape, p_W); index >= 0) marks[index] = 1;
+      }
+    }
+  }
+  return marks;
+}
+
+bool MeetsOccupied(const VoxelGrid& grid, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB) {
+  bool meets = false;
+  WalkRay(MakeRayWalk(grid.shape(), p_WA, p_WB),
+          [&](int64_t index) { return !(meets = IsOccupied(grid.cells()[index])); });
+  return meets;
+}
+
+/// Share of the beams from new directions at surface whose cell was hit by a scan, or has a neighbour that was, that
+/// meet nothing occupied up to 50 mm behind it.
+double CalcShineThrough(const MappingWorkload& workload, const VoxelGrid& grid) {
+  const std::vector<uint8_t> marks = MarkHits(workload);
+  const std::vector<Eigen::Vector3d> directions_S = CalcBeamDirections_S(workload.profiler);
+  int64_t beams = 0, shining = 0;
+  for (uint64_t i = 0; i < 1200; ++i) {
+    const std::vector<Stripe>& scan = workload.scans[i % workload.scans.size()];
+    const Eigen::Vector3d axis(CalcGaussian({i, 0}), CalcGaussian({i, 1}), CalcGaussian({i, 2}));
+    const Eigen::AngleAxisd turn(0.6 * CalcGaussian({i, 3}), axis.normalized());
+    const Stripe fresh = CastStripe(workload.profiler, workload.figure, turn * scan[i * 37 % scan.size()].X_WS);
+    for (size_t beam = 0; beam < directions_S.size(); ++beam) {
+      if (fresh.ranges_m[beam] == 0.0F) continue;
+      const Eigen::Vector3d p_WP = fresh.X_WS * (fresh.ranges_m[beam] * directions_S[beam]);
+      bool scanned = false;
+      for (int n = 0; n < 27; ++n) {
+        const int64_t index =
+            FindCell(workload.shape, p_WP + 0.005 * Eigen::Vector3d(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
+        scanned |= index >= 0 && marks[index] != 0;
+      }
+      if (!scanned) continue;
+      ++beams;
+      shining += !MeetsOccupied(grid, fresh.X_WS.translation(),
+                                fresh.X_WS * ((fresh.ranges_m[beam] + 0.05) * directions_S[beam]));
+    }
+  }
+  return static_cast<double>(shining) / static_cast<double>(beams);
+}
+
+/// Quality, not speed: how closed the surface is after twenty scans.
+void ShineThroughBench(benchmark::State& state) {
+  const MappingWorkload workload = MakeMappingWorkload(20);
+  MapUpdate map(workload.shape, workload.profiler);
+  int64_t cells = 0, runs = 0;
+  for (const std::vector<Stripe>& scan : workload.scans) {
+    for (size_t i = 0; i < scan.size(); ++i) {
+      map.Insert(scan[i]);
+      if (i % 25 != 24) continue;
+      const VoxelDelta delta = map.TakeDelta();
+      cells += static_cast<int64_t>(delta.values.size());
+      runs += static_cast<int64_t>(delta.run_start.size());
+    }
+  }
+  for (auto _ : state) state.counters["shine_through_percent"] = 100.0 * CalcShineThrough(workload, map.grid());
+  state.counters["delta_cells_per_scan"] = static_cast<double>(cells) / 20.0;
+  state.counters["delta_runs_per_scan"] = static_cast<double>(runs) / 20.0;
+}
+BENCHMARK(ShineThroughBench)->Name("ShineThrough")->Unit(benchmark::kMillisecond)->Iterations(1);
 
 /// One query, along a line through the field as a moving body asks.
 void DistanceQueryBench(benchmark::State& state) {
