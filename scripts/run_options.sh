@@ -25,7 +25,10 @@ take_run_option() {
   case $1 in
     --object) run_object=$2 ;;
     --method) run_method=$2 ;;
-    --seed) run_seed=$2 ;;
+    --seed)
+      [[ $2 =~ ^[0-9]+$ ]] || fail "--seed must be a whole number from 0, not \`$2\`"
+      run_seed=$2
+      ;;
     --out) run_out=$2 && return ;;
     --cell | --completeness | --max-scans | --rate) ;;
     *) return 1 ;;
@@ -54,6 +57,14 @@ check_space() {
   ((free >= needed_mb)) || fail "only $((free)) MB are free in $folder: a run needs about $needed_mb MB"
 }
 
+# software_version: the project's version, and the commit where git knows it.
+software_version() {
+  local version commit
+  version=$(sed -n 's/^project(.* VERSION \([0-9.]*\).*/\1/p' "$nbs_root/CMakeLists.txt")
+  commit=$(git -C "$nbs_root" describe --always --dirty 2>/dev/null) || commit=
+  printf '%s%s\n' "$version" "${commit:+ ($commit)}"
+}
+
 # prepare_run: checks the options and makes the run folder with run.yaml; sets nbs_run.
 prepare_run() {
   check_space "$(canonical "${run_out:-$nbs_runs}")"
@@ -62,7 +73,7 @@ prepare_run() {
     run_out=$(default_out)
     made=$run_out
   fi
-  if ! "$nbs_bin/nbs-prepare" "${nbs_prepare_options[@]}" --out "$run_out"; then
+  if ! "$nbs_bin/nbs-prepare" "${nbs_prepare_options[@]}" --out "$run_out" --version "$(software_version)"; then
     [[ -z $made ]] || rm -rf "$made"
     exit 1
   fi

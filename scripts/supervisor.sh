@@ -28,12 +28,17 @@ start_service() {
   note "started $name, process $!"
 }
 
-# start_services NAME…
-start_services() {
+# need_programs NAME…: refuses to begin when one is not built.
+need_programs() {
   local name
   for name in "$@"; do
     [[ -x $nbs_bin/nbs-$name ]] || fail "$nbs_bin/nbs-$name is missing: run scripts/build"
   done
+}
+
+# start_services NAME…
+start_services() {
+  local name
   for name in "$@"; do start_service "$name"; done
 }
 

@@ -1,5 +1,6 @@
 """What a user can get wrong: one clear sentence, exit code 1, nothing left behind."""
 
+import itertools
 import os
 import subprocess
 import unittest
@@ -9,18 +10,23 @@ from run_testing import WholeRunTest
 
 
 class BadInput(WholeRunTest):
+    numbers = itertools.count()
+
     def write(self, name, data):
         file = self.folder / name
         file.write_bytes(data)
         return file
 
-    def assert_refused(self, *arguments, says, out="refused", **environment):
+    def assert_refused(self, *arguments, says, out=None, **environment):
+        """`out`: a folder that exists already, or cannot be made; otherwise a new one, which must not be left."""
+        is_new = out is None
+        out = out or f"refused-{next(self.numbers)}"
         process = self.start("scan", *arguments, "--out", self.folder / out, **environment)
         output, errors = self.finish(process, code=1)
         self.assertEqual(("", 1), (output, errors.count("\n")), errors)
         for word in [says] if isinstance(says, str) else says:
             self.assertIn(word, errors)
-        if out == "refused":
+        if is_new:
             self.assertFalse((self.folder / out).exists(), "a run folder was left")
         self.assert_nothing_runs()
 
