@@ -209,8 +209,8 @@ void ServiceRunner::Report(const ServiceStatus& status, Instant now) {
 }
 
 bool ServiceRunner::IsDone() const {
-  return setup_.exit_when_finished && progress_.finished && publisher_.IsAllAcknowledged() &&
-         state_told_ == ServiceState::kFinished;
+  const bool may_end = setup_.exit_when_finished || recorder_.histories().empty();
+  return may_end && progress_.finished && publisher_.IsAllAcknowledged() && state_told_ == ServiceState::kFinished;
 }
 
 void ServiceRunner::Stop() {

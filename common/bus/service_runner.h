@@ -40,7 +40,8 @@ class ServiceRunner {
   ServiceRunner(ServiceSetup setup, Node& node, Transport& transport);
   ~ServiceRunner();
 
-  /// Takes part in the run until Stop, or (exit_when_finished) the end.
+  /// Takes part in the run until Stop, or until the node has finished and nobody needs the service any more: because it
+  /// publishes nothing, or with exit_when_finished once its outputs have been received.
   ///
   /// @throws RunFailure, in one sentence, if the run cannot go on.
   void Run();
