@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
 
+#include "common/bus/window.h"
 #include "common/runtime/error.h"
 
 namespace nbs {
 namespace {
 
+constexpr const char* kBufferOption = "recv_buf_size=";
 constexpr int kMostDatagramsPerPoll = 64;  // So that repair, credit and heartbeat go out while a flood comes in.
 
 [[noreturn]] void ThrowCannotOpen(const std::string& url) {
@@ -18,6 +22,17 @@ constexpr int kMostDatagramsPerPoll = 64;  // So that repair, credit and heartbe
                     ": if this machine has no multicast route, run `ip route add 239.255.76.67/32 dev lo` as root "
                     "before the services start (without root: "
                     "`unshare -Urn`, then `ip link set lo up; ip route add 224.0.0.0/4 dev lo`)");
+}
+
+// What the kernel grants of the request: at most rmem_max, and twice what it was asked for. Where the limit cannot be
+// read, a stock buffer.
+int64_t CalcReceiveBuffer(const std::string& url) {
+  const auto stock = static_cast<int64_t>(kStockReceiveBuffer);
+  const size_t option = url.find(kBufferOption);
+  int64_t limit = 0;
+  if (option == std::string::npos || !(std::ifstream("/proc/sys/net/core/rmem_max") >> limit)) return stock;
+  const int64_t requested = std::strtoll(url.c_str() + option + std::strlen(kBufferOption), nullptr, 10);
+  return 2 * std::min(requested, limit);
 }
 
 }  // namespace
@@ -40,14 +55,15 @@ std::string ResolveLcmUrl(const std::string& url) {
     if (from_environment != nullptr) resolved = from_environment;
   }
   if (resolved.empty()) resolved = "udpm://239.255.76.67:7667?ttl=0";
-  if (resolved.starts_with("udpm://") && resolved.find("recv_buf_size") == std::string::npos) {
+  if (resolved.starts_with("udpm://") && resolved.find(kBufferOption) == std::string::npos) {
     resolved += resolved.find('?') == std::string::npos ? "?" : "&";
-    resolved += "recv_buf_size=4194304";
+    resolved += kBufferOption + std::string("4194304");
   }
   return resolved;
 }
 
-LcmTransport::LcmTransport(const std::string& url) : url_(ResolveLcmUrl(url)), lcm_(std::make_unique<Lcm>(url_)) {
+LcmTransport::LcmTransport(const std::string& url)
+    : url_(ResolveLcmUrl(url)), receive_buffer_(CalcReceiveBuffer(url_)), lcm_(std::make_unique<Lcm>(url_)) {
   if (lcm_->handle == nullptr) ThrowCannotOpen(url_);
 }
 

@@ -82,7 +82,9 @@ void ServiceRunner::Turn() {
 
   const Instant now = Clock::now();
   AskForMissing(now);
+  const int64_t stalls = publisher_.stalls();
   if (publisher_.Send(now, transport_) || !publisher_.IsAllAcknowledged()) heartbeat_.NoteMoved();
+  if (publisher_.stalls() > stalls) heartbeat_.NoteHurry();  // Asks the receivers for credit.
   if (heartbeat_.IsDue(now)) SendStatus(now);
   if (IsDone()) {
     stop_ = true;
@@ -134,8 +136,9 @@ void ServiceRunner::OnPeerStatus(std::span<const uint8_t> data) {
     for (auto& [stream, input] : inputs_) {
       if (input.stream.channel() != output.channel || input.stream.sender() != status->service) continue;
       input.stream.OnAnnouncedEnd(output.published);
-      // The sender lacks credit that was given: the heartbeat with it was lost.
-      if (output.acknowledged < input.stream.status().received) heartbeat_.NoteMoved();
+      if (output.acknowledged >= input.stream.status().received) continue;
+      // The sender lacks credit: the heartbeat with it was lost, or it is for messages too small to have hurried one.
+      output.waits_for.empty() ? heartbeat_.NoteMoved() : heartbeat_.NoteHurry();
     }
   }
 }
@@ -175,6 +178,7 @@ ServiceStatus ServiceRunner::MakeStatus() const {
   status.service = setup_.service;
   status.pid = getpid();
   status.state = CalcState();
+  status.receive_buffer = transport_.receive_buffer_bytes();
   for (const auto& [stream, input] : inputs_) {
     InputStatus row = input.stream.status();
     row.processed = CountProcessed(stream);

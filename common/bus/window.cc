@@ -1,5 +1,6 @@
 #include "common/bus/window.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace nbs {
@@ -24,6 +25,12 @@ size_t EstimateKernelBytes(size_t payload_bytes) {
 size_t CalcWindowBytes(std::string_view service) {
   const bool bulk = service == "mesher" || service == "voxelmap" || service == "planner";
   return bulk ? kBulkWindow : kSmallWindow;
+}
+
+int64_t ScaleWindow(int64_t window_bytes, int64_t smallest_buffer) {
+  constexpr int64_t kMostTimes = 8;
+  const auto stock = static_cast<int64_t>(kStockReceiveBuffer);
+  return window_bytes * std::clamp(smallest_buffer, stock, kMostTimes * stock) / stock;
 }
 
 }  // namespace nbs

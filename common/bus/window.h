@@ -23,4 +23,10 @@ size_t EstimateKernelBytes(size_t payload_bytes);
 /// coordinator talk while those are silent. One message of the largest size may always go alone.
 size_t CalcWindowBytes(std::string_view service);
 
+/// The window when all receivers have at least that much room: grows with it, up to eight times. Services ask for a
+/// large receive buffer; a stock machine grants them two times kStockReceiveBuffer.
+///
+/// @param smallest_buffer  Bytes; what is below kStockReceiveBuffer counts as that.
+int64_t ScaleWindow(int64_t window_bytes, int64_t smallest_buffer);
+
 }  // namespace nbs

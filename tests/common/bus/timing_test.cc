@@ -104,6 +104,14 @@ TEST(Window, OfAllWhoTalkAtOnceFitsAStockReceiveBuffer) {
   EXPECT_LE(CalcWindowBytes("planner") + CalcWindowBytes("coordinator") + kHeartbeats, kStockReceiveBuffer);
 }
 
+TEST(Window, GrowsWithTheReceiversBuffersUpToEightTimes) {
+  const auto stock = static_cast<int64_t>(kStockReceiveBuffer);
+  EXPECT_EQ(ScaleWindow(1000, 0), 1000);
+  EXPECT_EQ(ScaleWindow(1000, stock), 1000);
+  EXPECT_EQ(ScaleWindow(1000, 2 * stock), 2000);
+  EXPECT_EQ(ScaleWindow(1000, 100 * stock), 8000);
+}
+
 TEST(Window, TakesAMessageOfTheLargestSize) { EXPECT_LE(EstimateKernelBytes(60000), CalcWindowBytes("mesher")); }
 
 }  // namespace
