@@ -41,7 +41,7 @@ void FakeSensor::Handle(const Message& message, Outbox&) {
 }
 
 void FakeMesher::Start(Outbox& out) {
-  constexpr int kVertexBytes = 38;
+  constexpr int kVertexBytes = 50;  // On the wire, rounded up.
   for (int i = 0; i < count_; ++i) {
     MeshDelta delta;
     delta.utime_us = i;

@@ -30,7 +30,7 @@ class Services : public testing::Test {
     config.folder = folder_.path();
     config.name = "test";
     config.run_id = 7;
-    config.version = "0";
+    config.version = std::string("0");
     config.realtime = realtime;
     config.grid.size = {10, 10, 10};
     config.first_path.X_WS_end.translation().z() = 0.1;
