@@ -1,6 +1,7 @@
 #include "sim/mesh_measures.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace nbs {
 namespace {
@@ -76,19 +77,32 @@ std::vector<Eigen::Vector3f> CalcVertexNormals(const TriangleMesh& mesh_W) {
   return normals;
 }
 
-std::vector<std::pair<uint32_t, uint32_t>> FindBorderEdges(const TriangleMesh& mesh_W) {
-  std::vector<std::pair<uint32_t, uint32_t>> edges = ListDirectedEdges(mesh_W);
-  for (auto& edge : edges)
-    if (edge.first > edge.second) std::swap(edge.first, edge.second);
-  std::sort(edges.begin(), edges.end());
-  std::vector<std::pair<uint32_t, uint32_t>> borders;
-  for (size_t begin = 0; begin < edges.size();) {
-    size_t end = begin;
-    while (end < edges.size() && edges[end] == edges[begin]) ++end;
-    if (end - begin == 1) borders.push_back(edges[begin]);
-    begin = end;
+TriangleMesh KeepLargestPiece(const TriangleMesh& mesh_W) {
+  std::vector<uint32_t> parent(mesh_W.vertices_W.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto find_root = [&parent](uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& t : mesh_W.triangles) {
+    parent[find_root(t[1])] = find_root(t[0]);
+    parent[find_root(t[2])] = find_root(t[0]);
   }
-  return borders;
+  std::vector<size_t> count(parent.size(), 0);
+  for (const auto& t : mesh_W.triangles) ++count[find_root(t[0])];
+  const auto largest = static_cast<uint32_t>(std::max_element(count.begin(), count.end()) - count.begin());
+  std::vector<uint32_t> number(parent.size(), 0);
+  TriangleMesh piece;
+  for (uint32_t v = 0; v < parent.size(); ++v) {
+    if (find_root(v) != largest) continue;
+    number[v] = static_cast<uint32_t>(piece.vertices_W.size());
+    piece.vertices_W.push_back(mesh_W.vertices_W[v]);
+    if (!mesh_W.normals_W.empty()) piece.normals_W.push_back(mesh_W.normals_W[v]);
+  }
+  for (const auto& t : mesh_W.triangles) {
+    if (find_root(t[0]) == largest) piece.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  }
+  return piece;
 }
 
 double CalcArea(const TriangleMesh& mesh_W) {

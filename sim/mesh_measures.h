@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "common/geometry/triangle_mesh.h"
@@ -15,8 +14,8 @@ Eigen::AlignedBox3d CalcBoundingBox(const TriangleMesh& mesh_W);
 /// Unit normals at the vertices: mean of the triangles' normals weighted by area. A vertex without triangle gets +z.
 std::vector<Eigen::Vector3f> CalcVertexNormals(const TriangleMesh& mesh_W);
 
-/// Edges with exactly one triangle, as (lower vertex, higher vertex), ascending.
-std::vector<std::pair<uint32_t, uint32_t>> FindBorderEdges(const TriangleMesh& mesh_W);
+/// The connected piece with the most triangles (the first of them on a tie), its vertices in their old order.
+TriangleMesh KeepLargestPiece(const TriangleMesh& mesh_W);
 
 /// Area of the surface, square metres.
 double CalcArea(const TriangleMesh& mesh_W);

@@ -172,7 +172,7 @@ void DrawLine(const Camera& camera, const Vector3d& p_WA, const Vector3d& p_WB, 
 
 MeshRenderer::MeshRenderer(const TriangleMesh& mesh_W) : mesh_W_(mesh_W), scene_W_(mesh_W) {
   if (mesh_W_.normals_W.empty()) mesh_W_.normals_W = CalcVertexNormals(mesh_W_);
-  borders_ = FindBorderEdges(mesh_W_);
+  borders_ = FindBorderEdges(mesh_W_.triangles);
   CalcOpenness();
 }
 
@@ -202,8 +202,9 @@ Picture MeshRenderer::Render(const View& view) const {
   const Camera camera = MakeCamera(view, view.frame_W.value_or(CalcBoundingBox(mesh_W_)));
   Canvas canvas = DrawSurface(view, RowShader(mesh_W_, scene_W_, openness_, camera));
   if (view.mark_borders) {
-    for (const auto& [a, b] : borders_) {
-      DrawLine(camera, mesh_W_.vertices_W[a].cast<double>(), mesh_W_.vertices_W[b].cast<double>(), canvas);
+    for (const BorderEdge& edge : borders_) {
+      DrawLine(camera, mesh_W_.vertices_W[edge.from].cast<double>(), mesh_W_.vertices_W[edge.to].cast<double>(),
+               canvas);
     }
   }
   Picture picture{view.width, view.height, {}};

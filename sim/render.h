@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/geometry/borders.h"
 #include "common/geometry/triangle_mesh.h"
 #include "sim/png.h"
 #include "sim/scene.h"
@@ -40,7 +41,7 @@ class MeshRenderer {
   TriangleMesh mesh_W_;
   TriangleScene scene_W_;
   std::vector<float> openness_;  ///< For each vertex, 0 hidden to 1 open to all sides.
-  std::vector<std::pair<uint32_t, uint32_t>> borders_;
+  std::vector<BorderEdge> borders_;
 };
 
 }  // namespace nbs

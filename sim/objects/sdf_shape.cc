@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 namespace nbs {
@@ -59,19 +60,27 @@ double Bowl::Distance(const Vector3d& p_P) const {
   return to_wall - 0.5 * thickness;
 }
 
+double Cloth::CalcOffset(double across, double down) const {
+  const double depth = fold_depth * (0.2 + 0.8 * down);
+  const double phase =
+      std::numbers::pi * folds * across + 1.3 * std::sin(2.6 * down + 2.0 * across) + 0.8 * across * down;
+  const double folded = std::sin(phase) + 0.4 * std::sin(1.63 * phase + 2.1 * down + 1.0);
+  return depth * folded + bend * across * across + sway * std::sin(std::numbers::pi * down);
+}
+
 double Cloth::Distance(const Vector3d& p_P) const {
   const double down = std::clamp(0.5 - 0.5 * p_P.z() / half_height, 0.0, 1.0);
   const double width = half_width * (gather + (1.0 - gather) * down);
-  const double depth = fold_depth * (0.25 + 0.75 * down);
-  const double across = p_P.x() / width;
-  const double phase = 3.14159265358979 * folds * across + 0.9 * std::sin(3.0 * down + 2.0 * across);
-  const double y = p_P.y() - depth * (std::sin(phase) + 0.35 * std::sin(1.7 * phase + 1.0));
-  const double slope = 3.14159265358979 * folds * depth / width;
-  const double scale = 1.0 / std::sqrt(1.0 + slope * slope);
-  const Vector3d d(std::abs(p_P.x()) - width, std::abs(y) * scale - 0.5 * thickness, std::abs(p_P.z()) - half_height);
-  const double rounding = 0.35 * thickness;
+  const double across = std::clamp(p_P.x() / width, -1.2, 1.2);
+  const double offset = CalcOffset(across, down);
+  const double slope = (CalcOffset(across + 0.01, down) - offset) / (0.01 * width);
+  const double foot = half_height * (1.0 - 0.05 * (1.0 + std::sin(3.7 * across + 1.0)) * down);
+  const Vector3d d(std::abs(p_P.x()) - width,
+                   std::abs(p_P.y() - offset) / std::sqrt(1.0 + slope * slope) - 0.5 * thickness,
+                   std::abs(p_P.z()) - foot);
+  const double rounding = 0.45 * thickness;
   const Vector3d inner = d.array() + rounding;
-  return std::min(inner.maxCoeff(), 0.0) + inner.cwiseMax(0.0).norm() - rounding;
+  return 0.85 * (std::min(inner.maxCoeff(), 0.0) + inner.cwiseMax(0.0).norm() - rounding);
 }
 
 double SdfShape::Step::Distance(const Vector3d& p_O) const {

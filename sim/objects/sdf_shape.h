@@ -52,7 +52,7 @@ struct Bowl {
   double Distance(const Eigen::Vector3d& p_P) const;
 };
 
-/// Hanging cloth: a slab around the plane y = 0, |x| <= half_width at the foot and half_width * gather at the head, |z|
+/// Hanging cloth: a sheet near the plane y = 0, |x| <= half_width at the foot and half_width * gather at the head, |z|
 /// <= half_height, with folds that run down it and grow deeper towards the foot.
 struct Cloth {
   double half_width = 1.0;
@@ -61,7 +61,13 @@ struct Cloth {
   double gather = 0.6;
   double fold_depth = 0.1;
   int folds = 5;
+  double bend = 0.0;  ///< How far the sides bend towards +y.
+  double sway = 0.0;  ///< How far the middle of the height bulges towards +y.
   double Distance(const Eigen::Vector3d& p_P) const;
+
+ private:
+  /// Offset of the sheet along y, `across` from -1 to 1, `down` from 0 at the head to 1 at the foot.
+  double CalcOffset(double across, double down) const;
 };
 
 using Solid = std::variant<Ellipsoid, RoundCone, Torus, Cylinder, Bowl, Cloth>;

@@ -36,8 +36,9 @@ void Settle(TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh MakeStatue() {
-  const Eigen::AlignedBox3d box(Eigen::Vector3d(-150, -110, -8), Eigen::Vector3d(150, 120, 510));
-  TriangleMesh mesh = MeshShape(SculptStatue(), box, {.spacing = kSpacing_mm});
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(-152, -110, -8), Eigen::Vector3d(150, 120, 512));
+  // Hollows that the solids happen to enclose are pieces of their own.
+  TriangleMesh mesh = KeepLargestPiece(MeshShape(SculptStatue(), box, {.spacing = kSpacing_mm}));
   Settle(mesh);
   mesh.normals_W = CalcVertexNormals(mesh);
   return mesh;

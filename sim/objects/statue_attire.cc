@@ -17,8 +17,9 @@ void SculptStrand(Sculptor& s, double phase) {
     const double angle = 2.0 * std::numbers::pi * i / kPoints;
     const double twist = 7.0 * angle + phase;
     const double radius = 1.0 + 0.055 * std::cos(twist);
-    points.emplace_back(3.0 + 52.0 * radius * std::cos(angle), 4.0 + 46.0 * radius * std::sin(angle),
-                        176.0 + 7.0 * std::cos(angle) + 4.0 * std::sin(twist));
+    const auto square = [](double c) { return std::copysign(std::pow(std::abs(c), 0.75), c); };
+    points.emplace_back(3.0 + 55.0 * radius * square(std::cos(angle)), 8.0 + 50.0 * radius * square(std::sin(angle)),
+                        177.0 + 7.0 * std::cos(angle) + 4.0 * std::sin(twist));
     radii.push_back(6.0 + 0.8 * std::sin(3.0 * angle + phase));
   }
   s.Chain(points, radii, {1.5});
@@ -63,10 +64,10 @@ void SculptCloth(Sculptor& s) {
   SculptStrand(s, 0.0);
   SculptStrand(s, std::numbers::pi);
   // The fall of cloth behind the right leg down to the rock, and the end that is drawn over the loins.
-  s.Place(Cloth{36.0, 68.0, 7.5, 0.62, 6.5, 4}, {-42, 42, 118}, Vector3d(0.16, -0.10, 1).normalized(),
-          Vector3d(1, 0.45, 0), {2.5});
-  s.Place(Cloth{24.0, 24.0, 7.0, 1.25, 3.2, 3}, {2, -41, 160}, Vector3d(0.05, -0.28, 1).normalized(),
-          Vector3d(1, 0.02, 0), {3.0});
+  s.Place(Cloth{40.0, 70.0, 6.5, 0.55, 7.5, 4, -6.0, -5.0}, {-44, 44, 116}, Vector3d(0.14, -0.12, 1).normalized(),
+          Vector3d(1, 0.55, 0), {2.5});
+  s.Place(Cloth{27.0, 24.0, 6.0, 1.3, 3.6, 3, 6.0, -2.0}, {2, -41, 159}, Vector3d(0.08, -0.20, 1).normalized(),
+          Vector3d(1, 0.04, 0), {3.0});
   s.Ball({-45, 20, 180}, 12.0, {5});
   s.CutRing({-45, 20, 180}, {0.6, 0.5, 0.6}, 12.0, 1.5, {2});
 }

@@ -1,4 +1,6 @@
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "sim/objects/statue_parts.h"
 
@@ -41,10 +43,10 @@ void SculptHand(Sculptor& s, const Vector3d& palm, const Vector3d& along, const 
 
 void SculptPlinth(Sculptor& s) {
   const Vector3d up = Vector3d::UnitZ(), x = Vector3d::UnitX();
-  s.Place(Cylinder{96.0, 9.0, 2.5}, {0, 4, 9}, up, x, {});
-  s.Ring({0, 4, 19}, up, 88.0, 4.5, {1.0});
-  s.Place(Cylinder{84.0, 9.0, 1.5, 40, 3.2}, {0, 4, 28}, up, x, {0.6});
-  s.Place(Cylinder{90.0, 4.0, 2.5}, {0, 4, 39}, up, x, {2.0});
+  s.Place(Cylinder{97.0, 9.0, 2.5}, {0, 4, 9}, up, x, {});
+  s.Place(Cylinder{83.0, 22.0, 1.5, 36, 3.0}, {0, 4, 22}, up, x, {1.0});
+  s.Ring({0, 4, 18}, up, 86.0, 4.5, {1.5});
+  s.Place(Cylinder{91.0, 4.5, 2.5}, {0, 4, 40}, up, x, {1.5});
   const Sculptor::Seam rock{5.0, 2.2, 9.0};
   s.Egg({2, 2, 42}, {78, 66, 11}, rock);
   s.Egg({-42, 34, 47}, {26, 24, 15}, rock);
@@ -116,23 +118,29 @@ void SculptArms(Sculptor& s) {
 
 void SculptBowl(Sculptor& s) {
   const Vector3d up = Vector3d::UnitZ();
-  const Vector3d middle(-86, -22, 466);
-  s.Ball({-87, -23, 418}, 11.0, {3});
-  s.Place(Bowl{45.0, 14.0, 5.0}, middle, up, Vector3d::UnitX(), {2});
-  s.Ring(middle + Vector3d(0, 0, 14), up, 43.5, 4.0, {1});
-  s.Ring(middle + Vector3d(0, 0, 4), up, 47.0, 1.8, {1});
-  for (int i = 0; i < 16; ++i) {
-    const double angle = 2.0 * 3.14159265358979 * i / 16.0;
+  const Vector3d middle(-88, -25, 468);
+  s.Place(Bowl{52.0, 14.0, 5.5}, middle, up, Vector3d::UnitX(), {2});
+  s.Ring(middle + Vector3d(0, 0, 15), up, 50.0, 4.2, {1});
+  s.Ring(middle + Vector3d(0, 0, 2), up, 54.0, 2.0, {1});
+  s.Ring(middle + Vector3d(0, 0, -47), up, 22.0, 3.5, {2});
+  for (int i = 0; i < 18; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 18.0;
     const Vector3d out(std::cos(angle), std::sin(angle), 0.0);
-    s.Limb(middle + 46.2 * out, 2.6, middle + 30.0 * out - 36.0 * up, 1.6, {1.2});
+    s.Chain({middle + 53.5 * out - 2.0 * up, middle + 47.5 * out - 25.0 * up, middle + 29.0 * out - 44.0 * up},
+            {3.4, 2.8, 1.6}, {1.2});
   }
+  // Each fruit rests on the wall or on another one.
   const Sculptor::Seam fruit{0.8};
-  s.Ball(middle + Vector3d(-12, 8, 2), 17.0, fruit);
-  s.Ball(middle + Vector3d(17, 10, -2), 15.0, fruit);
-  s.Egg(middle + Vector3d(3, -18, 1), {12, 12, 16}, fruit, {0.5, 0.2, 0.8});
-  for (int i = 0; i < 9; ++i) {
-    s.Ball(middle + Vector3d(-22.0 + 5.3 * (i % 3) + 2.0 * (i / 3), -22.0 + 7.0 * (i / 3), 2.0 + 3.0 * ((i * 2) % 3)),
-           5.2, fruit);
+  s.Ball(middle + Vector3d(-14, 12, -28), 18.0, fruit);
+  s.Ball(middle + Vector3d(18, 12, -26), 17.0, fruit);
+  s.Egg(middle + Vector3d(4, -22, -24), {14, 14, 19}, fruit, {0.9, 0.3, 0.5});
+  s.Ball(middle + Vector3d(2, 4, -6), 15.0, fruit);
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 2.4 * i;
+    const double radius = 3.2 * std::sqrt(static_cast<double>(i));
+    s.Ball(middle + Vector3d(-27.0 + radius * std::cos(angle), -16.0 + radius * std::sin(angle),
+                             -17.0 - 0.5 * radius + 1.5 * (i % 3)),
+           5.6, fruit);
   }
 }
 

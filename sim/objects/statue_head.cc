@@ -26,7 +26,7 @@ void SculptEye(Sculptor& s, double side) {
   s.Chain({{side * 7.5, -41.5, 1.0}, {side * 13.0, -42.0, -3.6}, {side * 19.0, -40.6, -3.4}, {side * 24.0, -36.0, 1.5}},
           {1.3, 1.5, 1.5, 1.3}, lid);
   s.CutBall({side * 14.6, -42.6, 2.2}, 2.0, {0.6});
-  s.Chain({{side * 6.0, -44.0, 11.0}, {side * 15.0, -43.5, 15.0}, {side * 26.0, -35.0, 11.5}}, {2.6, 3.2, 2.2}, {5.0});
+  s.Chain({{side * 6.5, -42.5, 13.5}, {side * 15.0, -42.6, 16.0}, {side * 26.0, -34.5, 11.0}}, {1.8, 2.4, 1.8}, {6.0});
 }
 
 void SculptNoseAndMouth(Sculptor& s) {
@@ -52,6 +52,25 @@ void SculptEar(Sculptor& s, double side) {
   s.Ball({side * 40.0, 0, -14}, 4.2, {2.0});
 }
 
+/// A lock of hair: a spiral that winds up from the skull at `at`, `out` away from it. `turn` sets where it begins and
+/// how it winds.
+void SculptLock(Sculptor& s, const Vector3d& at, const Vector3d& out, double turn) {
+  const Vector3d u = out.unitOrthogonal();
+  const Vector3d v = out.cross(u) * (std::sin(3.3 * turn) > 0.0 ? 1.0 : -1.0);
+  const Vector3d lean = 0.25 * (std::cos(1.3 * turn) * u + std::sin(1.7 * turn) * v);
+  std::vector<Vector3d> points;
+  std::vector<double> thickness;
+  constexpr int kPoints = 8;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double t = static_cast<double>(i) / kPoints;
+    const double angle = turn + 7.6 * t;
+    const double radius = (8.4 + 1.2 * std::sin(5.1 * turn)) * (1.0 - 0.78 * t);
+    points.push_back(at + radius * (std::cos(angle) * u + std::sin(angle) * v) + (-1.5 + 5.5 * t) * (out + lean));
+    thickness.push_back(3.5 - 1.1 * t);
+  }
+  s.Chain(points, thickness, {0.8});
+}
+
 }  // namespace
 
 void SculptHead(Sculptor& s) {
@@ -72,25 +91,17 @@ void SculptHead(Sculptor& s) {
 
 void SculptHair(Sculptor& s) {
   s.SetFrame(MakeHeadPose());
-  const Vector3d middle(0, 7, 9), radii(42.0, 46.0, 42.5);
-  s.Egg({0, 10, 13}, {42.0, 44.5, 40.5}, {2.0});
-  const std::vector<Vector3d> directions = MakeSphereDirections(104);
+  const Vector3d middle(0, 7, 9), radii(40.5, 44.5, 41.0);
+  s.Egg({0, 10, 13}, {41.0, 43.5, 39.5}, {2.0});
+  const std::vector<Vector3d> directions = MakeSphereDirections(116);
   for (size_t i = 0; i < directions.size(); ++i) {
     const Vector3d& d = directions[i];
     // The hairline: high over the forehead, low in the neck.
-    if (d.z() < -0.02 - 0.62 * -d.y() * (d.y() < 0.0 ? -1.0 : 1.0) && d.z() < 0.9) continue;
-    const Vector3d at = middle + radii.cwiseProduct(d);
-    const Vector3d tilt(0.5 * std::sin(2.4 * i), 0.5 * std::cos(1.7 * i), 0.4 * std::sin(3.3 * i));
-    const double size = 6.6 + 1.1 * std::sin(5.1 * i);
-    s.Ring(at, d + 0.8 * tilt, size, 3.1, {1.2});
-    s.Ball(at + 1.5 * d, 3.0, {1.0});
-    s.Limb(at + size * d.unitOrthogonal(), 3.4, at + 1.9 * size * (d.unitOrthogonal() + 0.5 * tilt) - 2.0 * d, 2.2,
-           {1.5});
+    if (d.z() > -0.02 - 0.60 * d.y()) SculptLock(s, middle + radii.cwiseProduct(d), d, 1.9 * static_cast<double>(i));
   }
-  // Locks over the forehead.
-  s.Ring({-5, -38, 34}, {0.3, -1, 0.4}, 7.5, 3.4, {1.2});
-  s.Ring({9, -37, 36}, {-0.3, -1, 0.5}, 6.5, 3.2, {1.2});
-  s.Limb({2, -41, 42}, 4.2, {3, -45, 28}, 2.2, {1.5});
+  SculptLock(s, {-7, -32, 37}, {-0.2, -0.8, 0.6}, 0.4);
+  SculptLock(s, {8, -32, 38}, {0.2, -0.8, 0.6}, 2.8);
+  s.Chain({{1, -30, 45}, {2, -38, 39}, {-1, -41, 31}}, {4.0, 3.4, 2.0}, {1.5});
   s.SetFrame(Pose::Identity());
 }
 

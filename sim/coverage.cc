@@ -1,0 +1,123 @@
+#include "sim/coverage.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "common/runtime/counter_random.h"
+#include "sim/directions.h"
+
+namespace nbs {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kDirections = 256;
+/// Lines of sight start this far off the surface.
+constexpr double kSurfaceSkip_m = 1e-4;
+/// No vertex of a reconstruction lies farther from the truth.
+constexpr double kFar_m = 10.0;
+constexpr uint64_t kPlacementKey = 0x636f766572616765;  // "coverage"
+
+}  // namespace
+
+CoverageOracle::CoverageOracle(const TriangleMesh& truth_W, const CoverageSettings& settings)
+    : settings_(settings), truth_W_(truth_W) {
+  if (settings.samples < 1)
+    throw std::invalid_argument("CoverageOracle: " + std::to_string(settings.samples) + " samples");
+  PlaceSamples(truth_W);
+  FindObservable();
+}
+
+void CoverageOracle::PlaceSamples(const TriangleMesh& truth_W) {
+  const auto corner = [&truth_W](size_t t, int i) -> Vector3d {
+    return truth_W.vertices_W[truth_W.triangles[t][i]].cast<double>();
+  };
+  std::vector<double> area_up_to;
+  double area = 0.0;
+  for (size_t t = 0; t < truth_W.triangles.size(); ++t) {
+    area += 0.5 * (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)).norm();
+    area_up_to.push_back(area);
+  }
+  if (!(area > 0.0)) throw std::invalid_argument("CoverageOracle: the truth has no area");
+  samples_.reserve(settings_.samples);
+  size_t t = 0;
+  for (int i = 0; i < settings_.samples; ++i) {
+    // The surface, laid out triangle after triangle, is cut into parts of equal area; each has its sample in the
+    // middle.
+    const double target = (i + 0.5) / settings_.samples * area;
+    while (area_up_to[t] < target) ++t;
+    const double root = std::sqrt(CalcUniform({kPlacementKey, static_cast<uint64_t>(i), 0}));
+    const double v = CalcUniform({kPlacementKey, static_cast<uint64_t>(i), 1});
+    const Vector3d a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
+    const Vector3d p = (1.0 - root) * a + root * (1.0 - v) * b + root * v * c;
+    samples_.push_back({p, (b - a).cross(c - a).normalized()});
+  }
+}
+
+void CoverageOracle::FindObservable() {
+  observable_.assign(samples_.size(), 0);
+  std::vector<Vector3d> directions = MakeSphereDirections(kDirections);
+  const double min_cosine = std::cos(settings_.profiler.max_incidence_rad);
+  const double depth = settings_.profiler.min_depth_m;
+  const double lowest = settings_.table_z_m.value_or(-std::numeric_limits<double>::infinity());
+  std::vector<size_t> open(samples_.size());
+  for (size_t i = 0; i < open.size(); ++i) open[i] = i;
+  // First along the normal itself, which settles nearly all, then the fixed set for those that are left.
+  for (int d = -1; d < kDirections && !open.empty(); ++d) {
+    std::vector<TriangleScene::Segment> sights;
+    std::vector<size_t> tried;
+    for (size_t i : open) {
+      const Sample& sample = samples_[i];
+      const Vector3d direction = d < 0 ? sample.normal_W : directions[d];
+      const Vector3d end = sample.p_W + depth * direction;
+      if (direction.dot(sample.normal_W) < min_cosine || end.z() < lowest) continue;
+      sights.push_back({sample.p_W, end});
+      tried.push_back(i);
+    }
+    const std::vector<uint8_t> blocked = truth_W_.FindBlocked(sights, kSurfaceSkip_m);
+    for (size_t k = 0; k < tried.size(); ++k) observable_[tried[k]] |= blocked[k] == 0;
+    std::erase_if(open, [this](size_t i) { return observable_[i] != 0; });
+  }
+  observable_share_ = static_cast<double>(std::count(observable_.begin(), observable_.end(), 1)) / samples_.size();
+}
+
+double CoverageOracle::CalcRmse(const TriangleMesh& mesh_W) const {
+  std::vector<uint8_t> used(mesh_W.vertices_W.size(), 0);
+  for (const auto& triangle : mesh_W.triangles) {
+    for (uint32_t v : triangle) used[v] = 1;
+  }
+  double sum = 0.0;
+  int64_t count = 0;
+  for (size_t v = 0; v < used.size(); ++v) {
+    if (used[v] == 0) continue;
+    const auto closest = truth_W_.FindClosest(mesh_W.vertices_W[v].cast<double>(), kFar_m);
+    const double distance = closest ? closest->distance_m : kFar_m;
+    sum += distance * distance;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
+}
+
+Coverage CoverageOracle::Evaluate(const TriangleMesh& mesh_W) const {
+  const TriangleScene scene(mesh_W);
+  const double min_cosine = std::cos(settings_.max_angle_rad);
+  int64_t covered = 0, observable = 0, both = 0;
+  for (size_t i = 0; i < samples_.size(); ++i) {
+    const Sample& sample = samples_[i];
+    const bool has_partner =
+        scene.FindClosestFacing(sample.p_W, settings_.max_distance_m, sample.normal_W, min_cosine).has_value();
+    covered += has_partner;
+    observable += observable_[i];
+    both += has_partner && observable_[i] != 0;
+  }
+  Coverage result;
+  result.coverage = static_cast<double>(covered) / static_cast<double>(samples_.size());
+  result.observable_coverage = observable > 0 ? static_cast<double>(both) / static_cast<double>(observable) : 0.0;
+  result.rmse_m = CalcRmse(mesh_W);
+  return result;
+}
+
+}  // namespace nbs
