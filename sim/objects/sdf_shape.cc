@@ -61,7 +61,8 @@ double Bowl::Distance(const Vector3d& p_P) const {
 }
 
 double Cloth::CalcOffset(double across, double down) const {
-  const double depth = fold_depth * (0.2 + 0.8 * down);
+  // The folds run out towards the edges of the sheet.
+  const double depth = fold_depth * (0.2 + 0.8 * down) * (1.0 - 0.7 * std::pow(std::min(std::abs(across), 1.0), 4.0));
   const double phase =
       std::numbers::pi * folds * across + 1.3 * std::sin(2.6 * down + 2.0 * across) + 0.8 * across * down;
   const double folded = std::sin(phase) + 0.4 * std::sin(1.63 * phase + 2.1 * down + 1.0);

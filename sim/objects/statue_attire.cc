@@ -66,8 +66,9 @@ void SculptCloth(Sculptor& s) {
   // The fall of cloth behind the right leg down to the rock, and the end that is drawn over the loins.
   s.Place(Cloth{40.0, 70.0, 6.5, 0.55, 7.5, 4, -6.0, -5.0}, {-44, 44, 116}, Vector3d(0.14, -0.12, 1).normalized(),
           Vector3d(1, 0.55, 0), {2.5});
-  s.Place(Cloth{27.0, 24.0, 6.0, 1.3, 3.6, 3, 6.0, -2.0}, {2, -41, 159}, Vector3d(0.08, -0.20, 1).normalized(),
+  s.Place(Cloth{27.0, 24.0, 6.0, 1.3, 3.6, 3, 6.0, -2.0}, {2, -38, 160}, Vector3d(0.08, -0.20, 1).normalized(),
           Vector3d(1, 0.04, 0), {3.0});
+  s.Egg({2, -26, 166}, {24, 13, 18}, {6.0});
   s.Ball({-45, 20, 180}, 12.0, {5});
   s.CutRing({-45, 20, 180}, {0.6, 0.5, 0.6}, 12.0, 1.5, {2});
 }

@@ -129,17 +129,18 @@ void SculptBowl(Sculptor& s) {
     s.Chain({middle + 53.5 * out - 2.0 * up, middle + 47.5 * out - 25.0 * up, middle + 29.0 * out - 44.0 * up},
             {3.4, 2.8, 1.6}, {1.2});
   }
-  // Each fruit rests on the wall or on another one.
-  const Sculptor::Seam fruit{0.8};
-  s.Ball(middle + Vector3d(-14, 12, -28), 18.0, fruit);
-  s.Ball(middle + Vector3d(18, 12, -26), 17.0, fruit);
-  s.Egg(middle + Vector3d(4, -22, -24), {14, 14, 19}, fruit, {0.9, 0.3, 0.5});
-  s.Ball(middle + Vector3d(2, 4, -6), 15.0, fruit);
+  // Fruit on a bed that fills the bottom.
+  s.Egg(middle + Vector3d(0, 0, -33), {39, 39, 15}, {2.0});
+  const Sculptor::Seam fruit{2.5};
+  s.Ball(middle + Vector3d(-14, 12, -20), 18.0, fruit);
+  s.Ball(middle + Vector3d(18, 12, -19), 17.0, fruit);
+  s.Egg(middle + Vector3d(6, -20, -18), {14, 14, 19}, fruit, {0.9, 0.3, 0.5});
+  s.Ball(middle + Vector3d(2, 6, -4), 15.0, fruit);
   for (int i = 0; i < 12; ++i) {
     const double angle = 2.4 * i;
     const double radius = 3.2 * std::sqrt(static_cast<double>(i));
     s.Ball(middle + Vector3d(-27.0 + radius * std::cos(angle), -16.0 + radius * std::sin(angle),
-                             -17.0 - 0.5 * radius + 1.5 * (i % 3)),
+                             -14.0 - 0.5 * radius + 1.5 * (i % 3)),
            5.6, fruit);
   }
 }
