@@ -87,7 +87,9 @@ TEST(SdfShape, StepsThatAreLeftOutDoNotMoveTheSurface) {
     const double exact = shape.Evaluate(p, all);
     const double local = shape.Evaluate(p, steps);
     EXPECT_EQ(exact < 0.0, local < 0.0) << i;
-    if (std::abs(exact) < 0.2) EXPECT_NEAR(local, exact, 1e-9) << i;
+    if (std::abs(exact) < 0.2) {
+      EXPECT_NEAR(local, exact, 1e-9) << i;
+    }
   }
   EXPECT_LT(kept, 4000u * 20u);
 }

@@ -82,7 +82,9 @@ TEST_F(Statue, CanBeLookedThroughBetweenArmAndBodyAndBetweenTheLegs) {
 }
 
 TEST_F(Statue, HidesLittleFromAFreeSensor) {
-  const CoverageOracle oracle(*mesh_, {.samples = 20000});
+  CoverageSettings settings;
+  settings.samples = 20000;
+  const CoverageOracle oracle(*mesh_, settings);
   EXPECT_GT(oracle.observable_share(), 0.98);
   EXPECT_LT(oracle.observable_share(), 1.0);
 }
