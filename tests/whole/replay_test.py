@@ -1,0 +1,97 @@
+"""A recorded run plays again, bit for bit, and a difference does not go unnoticed."""
+
+import re
+import shutil
+import unittest
+
+from lcm_log import find_messages
+from run_testing import WholeRunTest
+
+OUTPUTS = ["MESH", "MESH_SCAN", "VOXELS", "PLAN", "CANDIDATES"]
+
+
+class Replay(WholeRunTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.finish(cls.start_scan("recorded"))
+        cls.run_folder = cls.folder / "recorded"
+        cls.log = (cls.run_folder / "bus.lcm").read_bytes()
+
+    def replay(self, code, *arguments, run=None):
+        result = self.finish(self.start("replay", run or self.run_folder, *arguments), code)
+        self.assert_nothing_runs()
+        return result
+
+    def write_log(self, name, data):
+        file = self.folder / name
+        file.write_bytes(data)
+        return file
+
+    def write_log_with_change(self, channel):
+        """The recorded log with the last byte but nine of a middle message of the channel changed by one."""
+        messages = find_messages(self.log, channel)
+        offset, length = messages[len(messages) // 2]
+        log = bytearray(self.log)
+        log[offset + length - 9] ^= 1
+        return self.write_log(f"changed_{channel}.lcm", log)
+
+    def test_twice_makes_every_output_again(self):
+        for _ in range(2):
+            output, errors = self.replay(0)
+            self.assertEqual("", errors)
+            lines = output.splitlines()
+            self.assertEqual(OUTPUTS, [line.split(":")[0] for line in lines])
+            for line in lines:
+                recorded, made, identical = map(int, re.findall(r"(\d+) (?:recorded|made|identical)", line))
+                self.assertGreater(recorded, 0)
+                self.assertEqual((recorded, recorded), (made, identical))
+
+    def test_as_fast_as_the_bus_goes_is_repaired_to_the_same(self):
+        self.replay(0, "--speed", 0)
+
+    def test_leaves_the_run_as_it_was(self):
+        before = {file: file.stat().st_mtime_ns for file in self.run_folder.rglob("*")}
+        self.replay(0)
+        self.assertEqual(before, {file: file.stat().st_mtime_ns for file in self.run_folder.rglob("*")})
+
+    def test_of_a_record_with_another_output_names_it(self):
+        _, errors = self.replay(2, "--log", self.write_log_with_change("VOXELS"))
+        self.assertIn("VOXELS", errors)
+        self.assertEqual(1, errors.count("\n"))
+
+    def test_of_other_inputs_finds_other_outputs(self):
+        _, errors = self.replay(2, "--log", self.write_log_with_change("STRIPE"))
+        self.assertTrue("MESH" in errors or "VOXELS" in errors or "STRIPE" in errors, errors)
+
+    def test_with_another_planner_finds_another_plan(self):
+        other = self.folder / "other"
+        shutil.copytree(self.run_folder, other)
+        text = (other / "run.yaml").read_text()
+        # As if its code had changed: it keeps further away from everything.
+        self.assertIn("body_margin_m: 0.02\n", text)
+        (other / "run.yaml").write_text(text.replace("body_margin_m: 0.02\n", "body_margin_m: 0.029\n"))
+        _, errors = self.replay(2, run=other)
+        self.assertTrue("PLAN" in errors or "CANDIDATES" in errors, errors)
+
+    def test_of_a_cut_log_fails(self):
+        messages = find_messages(self.log, "STRIPE")
+        offset, length = messages[len(messages) // 2]
+        self.replay(2, "--log", self.write_log("cut.lcm", self.log[: offset + length // 2]))
+
+    def test_of_a_log_with_garbage_fails(self):
+        offset, _ = find_messages(self.log, "STRIPE")[5]
+        self.replay(2, "--log", self.write_log("garbage.lcm", self.log[: offset - 34] + bytes(40) + self.log[offset + 6 :]))
+
+    def test_of_what_is_no_log_fails(self):
+        self.replay(2, "--log", self.write_log("letter.lcm", b"Dear reader,\n" * 100))
+
+    def test_bad_input_gets_one_sentence(self):
+        for arguments in ((), (self.folder,), (self.run_folder, "--log", "/nowhere"), (self.run_folder, "--speed", "fast"), (self.run_folder, "--loud")):
+            with self.subTest(arguments):
+                output, errors = self.finish(self.start("replay", *arguments), 1)
+                self.assertEqual(("", 1), (output, errors.count("\n")))
+
+
+if __name__ == "__main__":
+    unittest.main()
