@@ -61,15 +61,13 @@ stop_services() {
   note "all services stopped"
 }
 
-# last_words NAME: the last line of its log, or what a full disk leaves of it.
+# last_words NAME: the last line of its log; says so when the disk is full, because the log then could not be written either.
 last_words() {
-  local free
+  local free words
+  words=$(tail -n 1 "$nbs_run/logs/$1.log" 2>/dev/null) || words=
   free=$(df --output=avail -k "$nbs_run" 2>/dev/null | tail -n 1) || free=
-  if [[ -n $free ]] && ((free < 1024)); then
-    printf 'no space left on the disk of %s' "$nbs_run"
-    return
-  fi
-  tail -n 1 "$nbs_run/logs/$1.log" 2>/dev/null || true
+  if [[ -n $free && $words != *'no space left'* ]] && ((free < 1024)); then words+=" (no space left on the disk of $nbs_run)"; fi
+  printf '%s' "$words"
 }
 
 # died_too_often NAME: notes a death; true when there were too many in quick succession.

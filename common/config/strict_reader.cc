@@ -36,8 +36,8 @@ StrictReader::StrictReader(const std::filesystem::path& file, const YamlTree& tr
                            Missing missing)
     : file_(file), tree_(&tree), missing_(missing) {
   if (tree.kind != YamlTree::Kind::kMap) FailAt(tree.line, "must be a map of keys and values");
-  for (size_t i = 0; i < tree.entries.size(); ++i) {
-    const std::string& key = tree.entries[i].first;
+  for (size_t i = 0; i < tree.keys.size(); ++i) {
+    const std::string& key = tree.keys[i];
     if (std::find(keys.begin(), keys.end(), key) == keys.end())
       FailAt(tree.key_lines[i], ExplainUnknown("key", key, keys));
   }
@@ -48,15 +48,15 @@ void StrictReader::FailAt(int line, const std::string& text) const {
 }
 
 void StrictReader::Fail(std::string_view key, const std::string& text) const {
-  for (size_t i = 0; i < tree_->entries.size(); ++i) {
-    if (tree_->entries[i].first == key) FailAt(tree_->key_lines[i], text);
+  for (size_t i = 0; i < tree_->keys.size(); ++i) {
+    if (tree_->keys[i] == key) FailAt(tree_->key_lines[i], text);
   }
   FailAt(tree_->line, text);
 }
 
 const YamlTree* StrictReader::FindPresent(std::string_view key) const {
-  for (const auto& [name, value] : tree_->entries) {
-    if (name == key) return &value;
+  for (size_t i = 0; i < tree_->keys.size(); ++i) {
+    if (tree_->keys[i] == key) return &tree_->items[i];
   }
   if (missing_ == Missing::kIsAnError) Fail(key, "key " + Name(key) + " is missing");
   return nullptr;

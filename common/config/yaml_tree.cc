@@ -37,12 +37,13 @@ YamlTree MakeTree(const std::filesystem::path& file, const YAML::Node& node, int
       const YAML::Node& key = entry.first;
       const int line = key.Mark().line + 1;
       if (!key.IsScalar()) Fail(file, line, "a key must be a word");
-      for (size_t i = 0; i < tree.entries.size(); ++i) {
-        if (tree.entries[i].first != key.Scalar()) continue;
+      for (size_t i = 0; i < tree.keys.size(); ++i) {
+        if (tree.keys[i] != key.Scalar()) continue;
         Fail(file, line,
              "key `" + key.Scalar() + "` comes twice: the first is on line " + std::to_string(tree.key_lines[i]));
       }
-      tree.entries.emplace_back(key.Scalar(), MakeTree(file, entry.second, depth + 1));
+      tree.keys.push_back(key.Scalar());
+      tree.items.push_back(MakeTree(file, entry.second, depth + 1));
       tree.key_lines.push_back(line);
     }
   }

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace nbs {
@@ -12,11 +11,11 @@ struct YamlTree {
   enum class Kind { kNull, kScalar, kList, kMap };
 
   Kind kind = Kind::kNull;
-  int line = 1;                                           ///< Where the value begins, from 1.
-  std::string text;                                       ///< Of a scalar.
-  std::vector<YamlTree> items;                            ///< Of a list.
-  std::vector<std::pair<std::string, YamlTree>> entries;  ///< Of a map, in the file's order; no key comes twice.
-  std::vector<int> key_lines;                             ///< Of a map: the line of each entry's key.
+  int line = 1;                   ///< Where the value begins, from 1.
+  std::string text;               ///< Of a scalar.
+  std::vector<YamlTree> items;    ///< Of a list: its items. Of a map: its values, in the file's order.
+  std::vector<std::string> keys;  ///< Of a map: a key for each item; none comes twice.
+  std::vector<int> key_lines;     ///< Of a map: the line of each key.
 };
 
 /// Reads a YAML file.
