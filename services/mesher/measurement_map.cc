@@ -38,12 +38,14 @@ void MeasurementMap::Insert(const Measurement& m) {
 }
 
 void MeasurementMap::Gather(const Eigen::Vector3f& p_W, float radius_m, const Eigen::Vector3f& side_W,
-                            std::vector<Sample>& samples) const {
+                            float least_cosine, std::vector<Sample>& samples) const {
   const float squared_radius = radius_m * radius_m;
   grid_.ForEachCell(p_W, radius_m, [&](int32_t head) {
     for (int32_t i = head; i != BrickGrid::kNone; i = entries_[i].next) {
       const Sample& s = entries_[i].sample;
-      if ((s.p_W - p_W).squaredNorm() <= squared_radius && s.view_sum_W.dot(side_W) > 0.0f) samples.push_back(s);
+      if ((s.p_W - p_W).squaredNorm() <= squared_radius &&
+          s.view_sum_W.dot(side_W) > least_cosine * s.view_sum_W.norm())
+        samples.push_back(s);
     }
   });
 }

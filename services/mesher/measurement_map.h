@@ -33,9 +33,11 @@ class MeasurementMap {
   /// @param m  Finite, within BrickGrid::kReach_m.
   void Insert(const Measurement& m);
 
-  /// Appends the samples whose point lies within radius_m of p_W and which were seen from the side of `side_W`
-  /// (positive dot product), cell by cell.
-  void Gather(const Eigen::Vector3f& p_W, float radius_m, const Eigen::Vector3f& side_W,
+  /// Appends, cell by cell, the samples whose point lies within radius_m of p_W and whose mean view makes an angle with
+  /// a cosine above `least_cosine` to side_W.
+  ///
+  /// @param side_W  Unit.
+  void Gather(const Eigen::Vector3f& p_W, float radius_m, const Eigen::Vector3f& side_W, float least_cosine,
               std::vector<Sample>& samples) const;
 
  private:

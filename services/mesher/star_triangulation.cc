@@ -6,10 +6,12 @@
 #include <limits>
 #include <numbers>
 
+#include "services/mesher/small_parts.h"
+
 namespace nbs {
 namespace {
 
-LoopCorner MakeCorner(const Vertex& v) { return {v.p_W, v.normal_W}; }
+SurfaceCorner MakeCorner(const Vertex& v) { return {v.p_W, v.normal_W}; }
 
 float CalcCircumradius(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
   const Eigen::Vector3f u = b - a, v = c - a;
@@ -23,11 +25,26 @@ bool StarTriangulation::MayJoin(const Vertex& a, const Vertex& b) const {
   const float squared_length = d.squaredNorm();
   if (squared_length > settings_.max_edge_m * settings_.max_edge_m || squared_length == 0.0f) return false;
   if (a.normal_W.dot(b.normal_W) < std::cos(settings_.max_normal_angle_rad)) return false;
+  // The chord over a ridge between two planes leans from the plane across the mean normal by at most half the angle
+  // between the normals.
+  const Eigen::Vector3f sum = a.normal_W + b.normal_W;
+  const float half_angle_sine = std::sqrt(std::max(0.0f, 0.5f * (1.0f - a.normal_W.dot(b.normal_W))));
+  const float max_slope = std::max(settings_.max_slope, half_angle_sine + settings_.slope_margin);
   const float length = std::sqrt(squared_length);
-  const float slope = std::abs(d.dot((a.normal_W + b.normal_W).normalized()));
-  constexpr float kSteepest = 0.95f;  // Towards either normal; beyond, no direction along the plane is left.
-  return slope <= settings_.max_slope * length && std::abs(d.dot(a.normal_W)) <= kSteepest * length &&
+  constexpr float kSteepest = 0.985f;  // Towards either normal; beyond, no direction along the plane is left.
+  return std::abs(d.dot(sum)) <= max_slope * length * sum.norm() && std::abs(d.dot(a.normal_W)) <= kSteepest * length &&
          std::abs(d.dot(b.normal_W)) <= kSteepest * length;
+}
+
+bool StarTriangulation::MayBridge(const Vertex& a, const Vertex& b) const {
+  const Eigen::Vector3f d = b.p_W - a.p_W;
+  const float length = d.norm();
+  if (length > settings_.max_bridge_m || length == 0.0f) return false;
+  // Opposite normals that part have matter between them, as at the rim of a plate; normals that meet have air, as in a
+  // crevice.
+  constexpr float kLeastParting = 0.3f;
+  constexpr float kOpposite = -0.5f;
+  return a.normal_W.dot(b.normal_W) > kOpposite || d.dot(b.normal_W - a.normal_W) > kLeastParting * length;
 }
 
 void StarTriangulation::Update(std::span<const uint32_t> due, VertexStore& vertices) {
@@ -38,14 +55,80 @@ void StarTriangulation::Update(std::span<const uint32_t> due, VertexStore& verti
   for (uint32_t id : due) RemoveDisagreed(id, vertices);
   for (uint32_t id : due) InsertAgreed(id, vertices);
   touched_.insert(touched_.end(), due.begin(), due.end());
-  std::sort(touched_.begin(), touched_.end());
-  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
-  std::vector<uint32_t> touched;
-  touched.swap(touched_);
-  for (uint32_t id : touched) {
-    if (vertices[id].state == Vertex::State::kReal) FillLoopsAt(id, vertices);
+  ReturnHeldBack(vertices);
+  touched_in_update_ = touched_;
+  FillLoops(vertices);
+  HoldBackSmallParts();
+}
+
+void StarTriangulation::ReturnHeldBack(const VertexStore& vertices) {
+  std::vector<MeshTopology::Triangle> waiting;
+  for (size_t first_new = 0;
+       first_new < touched_.size();) {  // What returns touches its vertices, and so brings back the rest of its part.
+    std::vector<uint32_t> fresh(touched_.begin() + static_cast<std::ptrdiff_t>(first_new), touched_.end());
+    first_new = touched_.size();
+    std::sort(fresh.begin(), fresh.end());
+    waiting.clear();
+    waiting.swap(held_back_);
+    for (const MeshTopology::Triangle& t : waiting) {
+      const bool near = std::any_of(t.begin(), t.end(),
+                                    [&](uint32_t v) { return std::binary_search(fresh.begin(), fresh.end(), v); });
+      if (!near) {
+        held_back_.push_back(t);
+      } else if (topology_.Find(t[0], t[1]) == MeshTopology::kNone && IsAgreed(t, vertices)) {
+        InsertTriangle(t);
+      }
+    }
+  }
+}
+
+void StarTriangulation::HoldBackSmallParts() {
+  std::vector<uint32_t> round;
+  touched_.swap(touched_in_update_);
+  std::vector<uint32_t> all = touched_;
+  while (!touched_.empty()) {
+    round.clear();
+    round.swap(touched_);
+    std::sort(round.begin(), round.end());
+    round.erase(std::unique(round.begin(), round.end()), round.end());
+    for (uint32_t id : round) HoldBack(FindLesserFans(topology_, id));
+    all.insert(all.end(), touched_.begin(), touched_.end());
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  std::vector<uint32_t> successors;
+  for (uint32_t id : all) {
+    topology_.FindBorderSuccessors(id, successors);
+    if (!successors.empty()) HoldBack(FindIsland(topology_, topology_.TrianglesAt(id).front(), settings_.least_part));
   }
   touched_.clear();
+  touched_in_update_.clear();
+}
+
+void StarTriangulation::HoldBack(const std::vector<uint32_t>& slots) {
+  for (uint32_t slot : slots) {
+    const int32_t group = topology_.group(slot);
+    if (group == kAgreed) {
+      held_back_.push_back(topology_.triangles()[slot]);
+    } else {
+      std::erase(fillings_[group], slot);
+      if (fillings_[group].empty()) free_fillings_.push_back(group);
+    }
+    RemoveTriangle(slot);
+  }
+}
+
+void StarTriangulation::FillLoops(const VertexStore& vertices) {
+  std::vector<uint32_t> round;
+  while (!touched_.empty()) {  // A filling can untangle the loop beside it: its vertices are looked at once more.
+    round.clear();
+    round.swap(touched_);
+    std::sort(round.begin(), round.end());
+    round.erase(std::unique(round.begin(), round.end()), round.end());
+    for (uint32_t id : round) {
+      if (vertices[id].state == Vertex::State::kReal) FillLoopsAt(id, vertices);
+    }
+  }
 }
 
 void StarTriangulation::Detach(uint32_t id) {
@@ -101,13 +184,17 @@ void StarTriangulation::InsertAgreed(uint32_t id, const VertexStore& vertices) {
     const uint32_t present = topology_.Find(id, a);
     if (present != MeshTopology::kNone && topology_.group(present) == kAgreed) continue;
     if (!IsAgreed(t, vertices)) continue;
-    for (int k = 0; k < 3; ++k) {
-      const uint32_t taken = topology_.Find(t[k], t[(k + 1) % 3]);
-      if (taken != MeshTopology::kNone) RemoveFilling(topology_.group(taken));
-    }
-    topology_.Insert(t, kAgreed);
-    touched_.insert(touched_.end(), t.begin(), t.end());
+    InsertTriangle(t);
   }
+}
+
+void StarTriangulation::InsertTriangle(const MeshTopology::Triangle& t) {
+  for (int k = 0; k < 3; ++k) {
+    const uint32_t taken = topology_.Find(t[k], t[(k + 1) % 3]);
+    if (taken != MeshTopology::kNone) RemoveFilling(topology_.group(taken));
+  }
+  topology_.Insert(t, kAgreed);
+  touched_.insert(touched_.end(), t.begin(), t.end());
 }
 
 void StarTriangulation::RemoveTriangle(uint32_t slot) {
@@ -191,10 +278,10 @@ void StarTriangulation::FillLoop(std::span<const uint32_t> loop, const VertexSto
   // Corner 0 is the smallest number, so that the filling does not depend on where the walk began.
   std::vector<uint32_t> ring(loop.begin(), loop.end());
   std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
-  std::vector<LoopCorner> corners;
+  std::vector<SurfaceCorner> corners;
   for (uint32_t id : ring) corners.push_back(MakeCorner(vertices[id]));
   const auto may_join = [&](uint32_t i, uint32_t j) {
-    return MayJoin(vertices[ring[i]], vertices[ring[j]]) && topology_.Find(ring[i], ring[j]) == MeshTopology::kNone &&
+    return MayBridge(vertices[ring[i]], vertices[ring[j]]) && topology_.Find(ring[i], ring[j]) == MeshTopology::kNone &&
            topology_.Find(ring[j], ring[i]) == MeshTopology::kNone;
   };
   const auto triangles = TriangulateLoop(corners, may_join);

@@ -82,7 +82,8 @@ void StreamingMesher::AddMeasurement(const Measurement& m) {
   float nearest_squared = settings_.spacing_m * settings_.spacing_m;
   vertices_.ForEachNear(m.p_W, settings_.spacing_m, [&](uint32_t id) {
     Vertex& v = vertices_[id];
-    if (v.side_W().dot(m.view_W) <= 0.0f) return;
+    const Eigen::Vector3f& side_W = v.side_W();
+    if (side_W.dot(m.view_W) <= settings_.least_view_cosine * side_W.norm()) return;
     MarkForFit(id);
     const float squared = (v.p_W - m.p_W).squaredNorm();
     if (squared > nearest_squared || (squared == nearest_squared && id > nearest)) return;
@@ -151,7 +152,8 @@ void StreamingMesher::FitDueVertices() {
 void StreamingMesher::FitPending(uint32_t id) {
   Vertex& v = vertices_[id];
   samples_.clear();
-  measurements_.Gather(v.anchor_W, settings_.fit.radius_m, v.view_sum_W, samples_);
+  measurements_.Gather(v.anchor_W, settings_.fit.radius_m, v.view_sum_W.normalized(), settings_.founding_cosine,
+                       samples_);
   const auto guess = EstimateNormal(samples_, v.anchor_W, v.view_sum_W, settings_.fit);
   if (!guess) return;
   const auto fit = FitSurface(samples_, v.anchor_W, *guess, settings_.fit);
@@ -192,7 +194,7 @@ bool StreamingMesher::HasRoomFor(uint32_t id, const SurfaceFit& fit) const {
 void StreamingMesher::FitReal(uint32_t id) {
   Vertex& v = vertices_[id];
   samples_.clear();
-  measurements_.Gather(v.anchor_W, settings_.fit.radius_m, v.normal_W, samples_);
+  measurements_.Gather(v.anchor_W, settings_.fit.radius_m, v.normal_W, settings_.sample_cosine, samples_);
   MarkForPublishing(id);
   const auto fit = FitSurface(samples_, v.anchor_W, v.normal_W, settings_.fit);
   if (!fit) return;

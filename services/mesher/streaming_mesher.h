@@ -20,6 +20,10 @@ struct StreamingMesherSettings {
   float least_spacing_share = 0.65f;  ///< Vertices are never nearer to each other than this share of R_d.
   float max_incidence_rad =
       1.40f;  ///< A surface seen only more obliquely than this is no surface, but points in the air at a depth edge.
+  float least_view_cosine =
+      0.25f;  ///< A measurement refines only vertices whose normal makes at most this angle's cosine with its beam.
+  float founding_cosine = 0.5f;
+  float sample_cosine = 0.15f;
   float moved_noticeably_m = 0.00005f;  ///< Published before the end of the scan only when moved further than this.
   float star_moved_m = 0.0001f;         ///< Stars are made anew when a vertex moved further than this,
   float star_turned_rad = 0.05f;        ///< or turned further than this.

@@ -9,7 +9,7 @@ namespace nbs {
 
 struct SurfaceFitSettings {
   float radius_m = 0.005f;            ///< R_n: samples beyond it have no weight.
-  float height_tolerance_m = 0.002f;  ///< Samples further than this from the surface along the normal have no weight:
+  float height_tolerance_m = 0.004f;  ///< Samples further than this from the surface along the normal have no weight:
                                       ///< another sheet, or an outlier.
   int min_measurements = 5;           ///< Fewer within R_n and the tolerance: no fit.
   float min_spread_m = 0.0009f;  ///< Least standard deviation of the samples across the surface, in their narrowest
