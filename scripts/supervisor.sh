@@ -131,3 +131,31 @@ write_report() {
   say "the report could not be written: $(last_words reporter)"
   return 2
 }
+
+# report_value KEY: a text or number at the top of report.json.
+report_value() { sed -n "s/^  \"$1\": \"\{0,1\}\(.*[^\",]\)\"\{0,1\},\{0,1\}\$/\1/p" "$nbs_run/report.json" 2>/dev/null; }
+
+# has_failed: true if the report says that the run broke off: it was refused a motion, never came to a scan, or its end was never reached.
+has_failed() { [[ $(report_value end_reason) == @(refused|interrupted) || $(report_value n_scans) == 0 ]]; }
+
+# finish_run CODE: stops the services, writes the results, says where they are, and ends the script. CODE 0 becomes 2 if the run itself failed; a run that
+# never began (CODE 1) has no results.
+finish_run() {
+  local code=$1
+  trap '' INT TERM HUP
+  stop_services
+  if ((code != 1)); then
+    if write_report; then
+      if ((code == 0)) && has_failed; then
+        code=2
+        say "the run failed: $(report_value end_detail)"
+      fi
+      printf '%s\n' "run folder: $nbs_run" || true
+    elif ((code == 0)); then
+      code=2
+    fi
+  fi
+  forget_set
+  trap - EXIT
+  exit "$code"
+}

@@ -22,8 +22,8 @@ if [[ $name == prepare ]]; then
   exit 0
 fi
 if [[ -n $offline ]]; then
-  echo '{}' >"$run/report.json"
-  echo 'report written'
+  [[ ! -e $run/unwritable ]] || { echo 'no space left' >&2 && exit 2; }
+  printf '{\n  "end_reason": "%s",\n  "end_detail": "Said \\"so\\", fully.",\n  "n_scans": 3\n}\n' "$(cat "$run/finish" 2>/dev/null || echo interrupted)" >"$run/report.json"
   exit 0
 fi
 

@@ -85,7 +85,7 @@ class Scan(ScriptTest):
         process, run = self.start_scan()
         (run / "finish").touch()
         output, errors = process.communicate(timeout=30)
-        self.assertEqual((0, "scan 0\nreport written\n", ""), (process.returncode, output, errors))
+        self.assertEqual((0, f"scan 0\nrun folder: {run}\n", ""), (process.returncode, output, errors))
         self.assertTrue((run / "report.json").exists())
         self.assert_nothing_runs(run)
 
@@ -143,6 +143,20 @@ class Scan(ScriptTest):
         (run / "sensor.order").write_text("1 run.yaml:3: unknown key\n")
         _, errors = process.communicate(timeout=30)
         self.assertEqual((1, "supervisor: sensor ended with exit code 1: run.yaml:3: unknown key\n"), (process.returncode, errors))
+        self.assert_nothing_runs(run)
+
+    def test_that_was_refused_a_motion_has_failed(self):
+        process, run = self.start_scan()
+        (run / "finish").write_text("refused")
+        _, errors = process.communicate(timeout=30)
+        self.assertEqual((2, 'the run failed: Said "so", fully.\n'), (process.returncode, errors))
+
+    def test_whose_report_cannot_be_written_has_failed(self):
+        process, run = self.start_scan()
+        (run / "unwritable").touch()
+        (run / "finish").touch()
+        _, errors = process.communicate(timeout=30)
+        self.assertEqual((2, "the report could not be written: no space left\n"), (process.returncode, errors))
         self.assert_nothing_runs(run)
 
     def test_reporter_that_fails_is_named(self):
