@@ -133,7 +133,9 @@ write_report() {
 }
 
 # report_value KEY: a text or number at the top of report.json.
-report_value() { sed -n "s/^  \"$1\": \"\{0,1\}\(.*[^\",]\)\"\{0,1\},\{0,1\}\$/\1/p" "$nbs_run/report.json" 2>/dev/null; }
+report_value() {
+  sed -n "s/^  \"$1\": \"\{0,1\}\(.*[^\",]\)\"\{0,1\},\{0,1\}\$/\1/p" "$nbs_run/report.json" 2>/dev/null | sed 's/\\"/"/g'
+}
 
 # has_failed: true if the report says that the run broke off: it was refused a motion, never came to a scan, or its end was never reached.
 has_failed() { [[ $(report_value end_reason) == @(refused|interrupted) || $(report_value n_scans) == 0 ]]; }
