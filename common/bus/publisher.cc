@@ -11,6 +11,9 @@ namespace {
 // stands still and loses whatever comes.
 constexpr std::chrono::milliseconds kLongestFlight{30};
 
+// Receivers give credit by themselves before the window is full, unless its messages differ much in size.
+constexpr std::chrono::milliseconds kPatienceForCredit{1};
+
 }  // namespace
 
 Publisher::Publisher(std::vector<OutputSetup> outputs, int64_t window_bytes, bool paced)
@@ -125,7 +128,10 @@ bool Publisher::SendLive(size_t index, Instant now, Transport& transport) {
       }
     }
     if (!MayGo(CalcCost(output, output.published))) {
-      if (!output.stalled) ++output.stalls;
+      if (!output.stalled) {
+        ++output.stalls;
+        stalled_since_ = now;
+      }
       output.stalled = true;
       break;
     }
@@ -144,10 +150,10 @@ bool Publisher::Send(Instant now, Transport& transport) {
   return sent;
 }
 
-int64_t Publisher::stalls() const {
-  int64_t sum = 0;
-  for (const Output& output : outputs_) sum += output.stalls;
-  return sum;
+bool Publisher::TakeCreditWish(Instant now) {
+  if (!stalled_since_ || now - *stalled_since_ < kPatienceForCredit) return false;
+  stalled_since_.reset();
+  return true;
 }
 
 bool Publisher::HasBacklog() const {
@@ -169,6 +175,7 @@ std::vector<OutputStatus> Publisher::MakeStatus() const {
     row.published = output.published;
     row.recorded = output.setup.store->size();
     row.acknowledged = CalcAcknowledged(output);
+    row.window = ledger_.window_bytes();
     row.stalls = output.stalls;
     row.repaired = output.repaired;
     if (output.stalled) row.waits_for = FindSlowest(output);

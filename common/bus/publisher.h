@@ -44,8 +44,8 @@ class Publisher {
   /// Sends what the window allows. Returns true if anything went out.
   bool Send(Instant now, Transport& transport);
 
-  /// Times that the window was found full, over all streams.
-  int64_t stalls() const;
+  /// True once when the window has been full for a millisecond: time to ask the receivers for credit by a heartbeat.
+  bool TakeCreditWish(Instant now);
   /// True while anything waits for the window, for credit or in the pacer.
   bool HasBacklog() const;
   bool IsAllAcknowledged() const;
@@ -88,6 +88,7 @@ class Publisher {
   FlightLedger ledger_;
   std::optional<Pacer> pacer_;
   std::optional<Instant> next_due_;
+  std::optional<Instant> stalled_since_;  // The window was found full and credit has not been asked for yet.
   std::deque<Repair> repairs_;
   std::set<std::pair<size_t, int64_t>> queued_;  // What repairs_ holds.
 };

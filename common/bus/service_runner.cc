@@ -15,7 +15,7 @@ namespace {
 
 // How long a turn waits for datagrams while something has a timer of its own.
 constexpr std::chrono::milliseconds kGapPatience{1};
-constexpr std::chrono::milliseconds kWindowPatience{5};
+constexpr std::chrono::milliseconds kWindowPatience{2};
 constexpr std::chrono::milliseconds kFoldPatience{10};
 
 }  // namespace
@@ -82,9 +82,8 @@ void ServiceRunner::Turn() {
 
   const Instant now = Clock::now();
   AskForMissing(now);
-  const int64_t stalls = publisher_.stalls();
   if (publisher_.Send(now, transport_) || !publisher_.IsAllAcknowledged()) heartbeat_.NoteMoved();
-  if (publisher_.stalls() > stalls) heartbeat_.NoteHurry();  // Asks the receivers for credit.
+  if (publisher_.TakeCreditWish(now)) heartbeat_.NoteHurry();
   if (heartbeat_.IsDue(now)) SendStatus(now);
   if (IsDone()) {
     stop_ = true;
@@ -119,12 +118,11 @@ void ServiceRunner::OnInput(size_t stream, Input& input, std::span<const uint8_t
   input.stream.OnDatagram(data, Clock::now(), in_order);
   for (Message& message : in_order) queues_.Push(stream, std::move(message));
   heartbeat_.NoteMoved();
-  // The sender waits for credit well before its window is full.
-  input.kernel_bytes += static_cast<int64_t>(EstimateKernelBytes(data.size()));
-  if (3 * input.kernel_bytes < static_cast<int64_t>(CalcWindowBytes(input.stream.sender()))) return;
-  heartbeat_.NoteHurry();
-  const Instant now = Clock::now();
-  if (heartbeat_.IsDue(now)) SendStatus(now);
+  const auto bytes = static_cast<int64_t>(EstimateKernelBytes(data.size()));
+  input.kernel_bytes += bytes;
+  input.largest = std::max(input.largest, bytes);
+  if (input.kernel_bytes < CalcCreditStep(input.window, input.largest)) return;
+  SendStatus(Clock::now());
 }
 
 void ServiceRunner::OnPeerStatus(std::span<const uint8_t> data) {
@@ -136,6 +134,7 @@ void ServiceRunner::OnPeerStatus(std::span<const uint8_t> data) {
     for (auto& [stream, input] : inputs_) {
       if (input.stream.channel() != output.channel || input.stream.sender() != status->service) continue;
       input.stream.OnAnnouncedEnd(output.published);
+      input.window = output.window;
       if (output.acknowledged >= input.stream.status().received) continue;
       // The sender lacks credit: the heartbeat with it was lost, or it is for messages too small to have hurried one.
       output.waits_for.empty() ? heartbeat_.NoteMoved() : heartbeat_.NoteHurry();

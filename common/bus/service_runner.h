@@ -61,6 +61,8 @@ class ServiceRunner {
   struct Input {
     InputStream stream;
     int64_t kernel_bytes = 0;  // Received since the last heartbeat.
+    int64_t largest = 0;       // Kernel bytes of the largest message so far.
+    int64_t window = 0;        // Of the sender, as it announces it.
   };
 
   std::vector<OutputSetup> MakeOutputs() const;

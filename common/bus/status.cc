@@ -40,6 +40,7 @@ void OutputColumns(Wire& wire, Status& status) {
   Column(wire, status.outputs, [](auto& w, auto& row) { w.template Integer<int64_t>(row.published); });
   Column(wire, status.outputs, [](auto& w, auto& row) { w.template Integer<int64_t>(row.recorded); });
   Column(wire, status.outputs, [](auto& w, auto& row) { w.template Integer<int64_t>(row.acknowledged); });
+  Column(wire, status.outputs, [](auto& w, auto& row) { w.template Integer<int64_t>(row.window); });
   Column(wire, status.outputs, [](auto& w, auto& row) { w.template Integer<int64_t>(row.stalls); });
   Column(wire, status.outputs, [](auto& w, auto& row) { w.template Integer<int64_t>(row.repaired); });
   Column(wire, status.outputs, [](auto& w, auto& row) { w.String(row.waits_for); });
@@ -75,7 +76,9 @@ bool IsWhole(const WireReader& wire) { return wire.refusal().empty() && wire.rem
 
 bool HasNegative(const ServiceStatus& status) {
   const auto bad_input = [](const InputStatus& s) { return s.received < 0 || s.processed < 0; };
-  const auto bad_output = [](const OutputStatus& s) { return s.published < 0 || s.recorded < 0 || s.acknowledged < 0; };
+  const auto bad_output = [](const OutputStatus& s) {
+    return s.published < 0 || s.recorded < 0 || s.acknowledged < 0 || s.window < 0;
+  };
   return std::ranges::any_of(status.inputs, bad_input) || std::ranges::any_of(status.outputs, bad_output);
 }
 

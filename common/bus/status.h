@@ -30,15 +30,16 @@ struct InputStatus {
   bool operator==(const InputStatus&) const = default;
 };
 
-/// How far a service is with one of its output streams. All numbers are counts.
+/// How far a service is with one of its output streams. Numbers are counts where nothing else is said.
 struct OutputStatus {
   std::string channel;
   int64_t published = 0;     ///< Sent at least once: the announced end.
   int64_t recorded = 0;      ///< In the history.
   int64_t acknowledged = 0;  ///< Received in order by every required receiver.
-  int64_t stalls = 0;        ///< Times that the window was found full.
-  int64_t repaired = 0;      ///< Sent again on request.
-  std::string waits_for;     ///< Receiver that holds the window; empty if it is open.
+  int64_t window = 0;     ///< Kernel memory that may be on its way at a time, bytes; shared by the service's streams.
+  int64_t stalls = 0;     ///< Times that the window was found full.
+  int64_t repaired = 0;   ///< Sent again on request.
+  std::string waits_for;  ///< Receiver that holds the window; empty if it is open.
 
   bool operator==(const OutputStatus&) const = default;
 };

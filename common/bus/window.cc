@@ -27,6 +27,11 @@ size_t CalcWindowBytes(std::string_view service) {
   return bulk ? kBulkWindow : kSmallWindow;
 }
 
+int64_t CalcCreditStep(int64_t window_bytes, int64_t largest_message_bytes) {
+  constexpr int64_t kLeast = 4096;
+  return std::max(kLeast, (window_bytes - largest_message_bytes) / 3);
+}
+
 int64_t ScaleWindow(int64_t window_bytes, int64_t smallest_buffer) {
   constexpr int64_t kMostTimes = 8;
   const auto stock = static_cast<int64_t>(kStockReceiveBuffer);

@@ -29,4 +29,8 @@ size_t CalcWindowBytes(std::string_view service);
 /// @param smallest_buffer  Bytes; what is below kStockReceiveBuffer counts as that.
 int64_t ScaleWindow(int64_t window_bytes, int64_t smallest_buffer);
 
+/// Received bytes after which a receiver gives credit at once: early enough that the next message of the largest size
+/// seen still finds room in the sender's window.
+int64_t CalcCreditStep(int64_t window_bytes, int64_t largest_message_bytes);
+
 }  // namespace nbs

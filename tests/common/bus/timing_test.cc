@@ -112,6 +112,17 @@ TEST(Window, GrowsWithTheReceiversBuffersUpToEightTimes) {
   EXPECT_EQ(ScaleWindow(1000, 100 * stock), 8000);
 }
 
+TEST(Window, GetsCreditBeforeTheNextMessageMeetsItsEnd) {
+  for (const int64_t window : {16500, 66000, 528000}) {
+    for (const int64_t message : {1344, 2368, 37000, 65000}) {
+      if (message > window) continue;
+      // What a receiver may keep back is less than one step and one message, unless a single message fills the window.
+      EXPECT_LE(CalcCreditStep(window, message) + message, std::max(window, message + 4096))
+          << window << " " << message;
+    }
+  }
+}
+
 TEST(Window, TakesAMessageOfTheLargestSize) { EXPECT_LE(EstimateKernelBytes(60000), CalcWindowBytes("mesher")); }
 
 }  // namespace
