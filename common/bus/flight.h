@@ -33,7 +33,6 @@ class FlightLedger {
   /// Forgets the flights that have landed.
   void Retire(const std::function<bool(const Flight&)>& has_landed);
 
-  void set_window_bytes(int64_t window_bytes) { window_bytes_ = window_bytes; }
   int64_t window_bytes() const { return window_bytes_; }
   bool empty() const { return flights_.empty(); }
   /// Largest number of bytes on their way at any time.

@@ -5,10 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 
-#include "common/bus/window.h"
 #include "common/runtime/error.h"
 
 namespace nbs {
@@ -22,17 +19,6 @@ constexpr int kMostDatagramsPerPoll = 64;  // So that repair, credit and heartbe
                     ": if this machine has no multicast route, run `ip route add 239.255.76.67/32 dev lo` as root "
                     "before the services start (without root: "
                     "`unshare -Urn`, then `ip link set lo up; ip route add 224.0.0.0/4 dev lo`)");
-}
-
-// What the kernel grants of the request: at most rmem_max, and twice what it was asked for. Where the limit cannot be
-// read, a stock buffer.
-int64_t CalcReceiveBuffer(const std::string& url) {
-  const auto stock = static_cast<int64_t>(kStockReceiveBuffer);
-  const size_t option = url.find(kBufferOption);
-  int64_t limit = 0;
-  if (option == std::string::npos || !(std::ifstream("/proc/sys/net/core/rmem_max") >> limit)) return stock;
-  const int64_t requested = std::strtoll(url.c_str() + option + std::strlen(kBufferOption), nullptr, 10);
-  return 2 * std::min(requested, limit);
 }
 
 }  // namespace
@@ -62,8 +48,7 @@ std::string ResolveLcmUrl(const std::string& url) {
   return resolved;
 }
 
-LcmTransport::LcmTransport(const std::string& url)
-    : url_(ResolveLcmUrl(url)), receive_buffer_(CalcReceiveBuffer(url_)), lcm_(std::make_unique<Lcm>(url_)) {
+LcmTransport::LcmTransport(const std::string& url) : url_(ResolveLcmUrl(url)), lcm_(std::make_unique<Lcm>(url_)) {
   if (lcm_->handle == nullptr) ThrowCannotOpen(url_);
 }
 

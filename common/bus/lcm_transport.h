@@ -23,7 +23,6 @@ class LcmTransport : public Transport {
   void Subscribe(const std::string& channel) override;
   void Publish(std::string_view channel, std::span<const uint8_t> data) override;
   void Poll(std::chrono::microseconds timeout, const Handler& handler) override;
-  int64_t receive_buffer_bytes() const override { return receive_buffer_; }
   void Wake() override { wake_.Set(); }
 
  private:
@@ -35,7 +34,6 @@ class LcmTransport : public Transport {
 
   std::string url_;
   WakeEvent wake_;
-  int64_t receive_buffer_;
   std::vector<Datagram> inbox_;
   std::unique_ptr<Lcm> lcm_;
 };

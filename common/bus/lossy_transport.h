@@ -16,7 +16,6 @@ class LossyTransport : public Transport {
   void Subscribe(const std::string& channel) override { inner_->Subscribe(channel); }
   void Publish(std::string_view channel, std::span<const uint8_t> data) override { inner_->Publish(channel, data); }
   void Poll(std::chrono::microseconds timeout, const Handler& handler) override;
-  int64_t receive_buffer_bytes() const override { return inner_->receive_buffer_bytes(); }
   void Wake() override { inner_->Wake(); }
 
  private:

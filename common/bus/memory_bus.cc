@@ -53,8 +53,6 @@ class MemoryBus::MemberTransport : public Transport {
     for (const Datagram& datagram : arrived) handler(datagram.channel, datagram.data);
   }
 
-  int64_t receive_buffer_bytes() const override { return static_cast<int64_t>(shared_->receive_buffer); }
-
   void Wake() override {
     const std::lock_guard lock(shared_->mutex);
     self_->woken = true;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "common/bus/window.h"
-
 namespace nbs {
 namespace {
 
@@ -16,11 +14,10 @@ constexpr std::chrono::milliseconds kPatienceForCredit{1};
 
 }  // namespace
 
-Publisher::Publisher(std::vector<OutputSetup> outputs, int64_t window_bytes, bool paced)
-    : stock_window_bytes_(window_bytes), ledger_(window_bytes) {
+Publisher::Publisher(std::vector<OutputSetup> outputs, int64_t window_bytes, bool paced) : ledger_(window_bytes) {
   for (OutputSetup& setup : outputs) {
     Output output;
-    for (const std::string& receiver : setup.receivers) output.receivers[receiver] = {};
+    for (const std::string& receiver : setup.receivers) output.received[receiver] = 0;
     output.published = setup.store->size();
     output.setup = std::move(setup);
     outputs_.push_back(std::move(output));
@@ -32,9 +29,8 @@ void Publisher::OnStatus(const ServiceStatus& status) {
   for (const InputStatus& row : status.inputs) {
     for (Output& output : outputs_) {
       if (row.channel != output.setup.channel) continue;
-      const auto receiver = output.receivers.find(status.service);
-      if (receiver == output.receivers.end()) continue;
-      receiver->second = {std::min(row.received, output.published), status.receive_buffer};
+      const auto receiver = output.received.find(status.service);
+      if (receiver != output.received.end()) receiver->second = std::min(row.received, output.published);
     }
     ledger_.Retire([&](const Flight& flight) {
       const Output& output = outputs_[flight.output];
@@ -42,7 +38,6 @@ void Publisher::OnStatus(const ServiceStatus& status) {
       return flight.requester == status.service && row.channel == output.setup.channel && row.received > flight.seq;
     });
   }
-  ledger_.set_window_bytes(ScaleWindow(stock_window_bytes_, FindSmallestBuffer()));
 }
 
 void Publisher::OnRepairRequest(const RepairRequest& request) {
@@ -57,14 +52,13 @@ void Publisher::OnRepairRequest(const RepairRequest& request) {
 
 int64_t Publisher::CalcAcknowledged(const Output& output) {
   int64_t least = output.published;
-  for (const auto& [name, receiver] : output.receivers) least = std::min(least, receiver.received);
+  for (const auto& [receiver, count] : output.received) least = std::min(least, count);
   return least;
 }
 
 std::string Publisher::FindSlowest(const Output& output) {
-  const auto slowest =
-      std::ranges::min_element(output.receivers, {}, [](const auto& entry) { return entry.second.received; });
-  return slowest == output.receivers.end() ? std::string() : slowest->first;
+  const auto slowest = std::ranges::min_element(output.received, {}, [](const auto& entry) { return entry.second; });
+  return slowest == output.received.end() ? std::string() : slowest->first;
 }
 
 int64_t Publisher::CalcCost(const Output& output, int64_t seq) {
@@ -78,16 +72,6 @@ int64_t Publisher::CalcLead() const {
     lead += store.CalcKernelBytesBefore(output.published) - store.CalcKernelBytesBefore(CalcAcknowledged(output));
   }
   return lead;
-}
-
-int64_t Publisher::FindSmallestBuffer() const {
-  std::optional<int64_t> smallest;
-  for (const Output& output : outputs_) {
-    for (const auto& [name, receiver] : output.receivers) {
-      smallest = std::min(smallest.value_or(receiver.receive_buffer), receiver.receive_buffer);
-    }
-  }
-  return smallest.value_or(0);
 }
 
 bool Publisher::MayGo(int64_t kernel_bytes) const {

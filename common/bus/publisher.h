@@ -31,7 +31,7 @@ struct OutputSetup {
 /// window.
 class Publisher {
  public:
-  /// @param window_bytes  The window while nothing is known about the receivers' buffers (CalcWindowBytes).
+  /// @param window_bytes  Credit window (CalcWindowBytes).
   /// @param paced         Live messages go out at the pace of simulated time.
   Publisher(std::vector<OutputSetup> outputs, int64_t window_bytes, bool paced);
 
@@ -55,13 +55,9 @@ class Publisher {
   const FlightLedger& ledger() const { return ledger_; }
 
  private:
-  struct Receiver {
-    int64_t received = 0;        // Messages in order.
-    int64_t receive_buffer = 0;  // Bytes.
-  };
   struct Output {
     OutputSetup setup;
-    std::map<std::string, Receiver> receivers;  // Those that are required, by name.
+    std::map<std::string, int64_t> received;  // By required receiver: messages in order.
     int64_t published = 0;
     int64_t stalls = 0;
     int64_t repaired = 0;
@@ -77,14 +73,12 @@ class Publisher {
   static std::string FindSlowest(const Output& output);
   static int64_t CalcCost(const Output& output, int64_t seq);
   int64_t CalcLead() const;
-  int64_t FindSmallestBuffer() const;
   bool MayGo(int64_t kernel_bytes) const;
   bool SendRepairs(Instant now, Transport& transport);
   bool SendLive(size_t index, Instant now, Transport& transport);
   void Launch(size_t index, int64_t seq, const std::string& requester, Instant now, Transport& transport);
 
   std::vector<Output> outputs_;
-  int64_t stock_window_bytes_;
   FlightLedger ledger_;
   std::optional<Pacer> pacer_;
   std::optional<Instant> next_due_;

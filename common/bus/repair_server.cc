@@ -123,7 +123,6 @@ ServiceStatus RepairServer::MakeStatus(const std::string& sender) const {
   status.service = sender;
   status.pid = getpid();
   status.state = ServiceState::kReady;
-  status.receive_buffer = transport_.receive_buffer_bytes();
   for (const StreamWiring& wiring : Wiring()) {
     if (std::ranges::find(wiring.receivers, sender) == wiring.receivers.end()) continue;
     InputStatus row;

@@ -177,7 +177,6 @@ ServiceStatus ServiceRunner::MakeStatus() const {
   status.service = setup_.service;
   status.pid = getpid();
   status.state = CalcState();
-  status.receive_buffer = transport_.receive_buffer_bytes();
   for (const auto& [stream, input] : inputs_) {
     InputStatus row = input.stream.status();
     row.processed = CountProcessed(stream);

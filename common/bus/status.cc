@@ -54,7 +54,6 @@ void StatusFields(Wire& wire, Status& status) {
   wire.String(status.service);
   wire.template Integer<int32_t>(status.pid);
   wire.Enum(status.state, kStates);
-  wire.template Integer<int64_t>(status.receive_buffer);
   wire.String(status.waits_for);
   InputColumns(wire, status);
   OutputColumns(wire, status);

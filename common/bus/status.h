@@ -52,8 +52,7 @@ struct ServiceStatus {
   std::string service;
   int32_t pid = 0;
   ServiceState state = ServiceState::kStarting;
-  int64_t receive_buffer = 0;  ///< Kernel memory of the process's receive buffer, bytes.
-  std::string waits_for;       ///< "CHANNEL from SENDER" of the message that is needed next and not there; else empty.
+  std::string waits_for;  ///< "CHANNEL from SENDER" of the message that is needed next and not there; else empty.
   std::vector<InputStatus> inputs;
   std::vector<OutputStatus> outputs;
   std::vector<std::pair<std::string, int64_t>> complaints;

@@ -25,9 +25,6 @@ class Transport {
   /// early on Wake and on a signal. The handler may publish.
   virtual void Poll(std::chrono::microseconds timeout, const Handler& handler) = 0;
 
-  /// Kernel memory of this member's receive buffer, bytes.
-  virtual int64_t receive_buffer_bytes() const = 0;
-
   /// Ends the waiting of Poll, now or the next time. Safe from any thread and from a signal handler.
   virtual void Wake() = 0;
 };

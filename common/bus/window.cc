@@ -32,10 +32,4 @@ int64_t CalcCreditStep(int64_t window_bytes, int64_t largest_message_bytes) {
   return std::max(kLeast, (window_bytes - largest_message_bytes) / 3);
 }
 
-int64_t ScaleWindow(int64_t window_bytes, int64_t smallest_buffer) {
-  constexpr int64_t kMostTimes = 8;
-  const auto stock = static_cast<int64_t>(kStockReceiveBuffer);
-  return window_bytes * std::clamp(smallest_buffer, stock, kMostTimes * stock) / stock;
-}
-
 }  // namespace nbs

@@ -23,12 +23,6 @@ size_t EstimateKernelBytes(size_t payload_bytes);
 /// coordinator talk while those are silent. One message of the largest size may always go alone.
 size_t CalcWindowBytes(std::string_view service);
 
-/// The window when all receivers have at least that much room: grows with it, up to eight times. Services ask for a
-/// large receive buffer; a stock machine grants them two times kStockReceiveBuffer.
-///
-/// @param smallest_buffer  Bytes; what is below kStockReceiveBuffer counts as that.
-int64_t ScaleWindow(int64_t window_bytes, int64_t smallest_buffer);
-
 /// Received bytes after which a receiver gives credit at once: early enough that the next message of the largest size
 /// seen still finds room in the sender's window.
 int64_t CalcCreditStep(int64_t window_bytes, int64_t largest_message_bytes);

@@ -56,4 +56,16 @@ void FakeMesher::Start(Outbox& out) {
   }
 }
 
+void FakeVoxelmap::Start(Outbox& out) {
+  for (int i = 0; i < count_; ++i) {
+    VoxelDelta delta;
+    delta.utime_us = i;
+    delta.end_of_scan = i + 1 == count_;
+    delta.run_start = {0};
+    delta.run_length = {static_cast<uint16_t>(bytes_ / 2)};
+    delta.values.resize(static_cast<size_t>(bytes_ / 2));
+    out.push_back(std::move(delta));
+  }
+}
+
 }  // namespace nbs

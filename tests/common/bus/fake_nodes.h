@@ -62,6 +62,19 @@ class FakeMesher : public Node {
   int bytes_;
 };
 
+/// Stands in for the voxelmap: publishes voxel changes of about `bytes` each, and has then finished.
+class FakeVoxelmap : public Node {
+ public:
+  FakeVoxelmap(int count, int bytes) : count_(count), bytes_(bytes) {}
+  void Start(Outbox& out) override;
+  size_t NextInput() const override { return kNoInput; }
+  void Handle(const Message&, Outbox&) override {}
+
+ private:
+  int count_;
+  int bytes_;
+};
+
 /// Reads one stream until the message that ends the scan.
 template <typename T>
 class FakeReader : public Node {

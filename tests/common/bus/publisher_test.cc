@@ -36,7 +36,6 @@ class NotingTransport : public Transport {
     sent_.push_back(std::string(channel) + " " + std::to_string(data[0]));
   }
   void Poll(std::chrono::microseconds, const Handler&) override {}
-  int64_t receive_buffer_bytes() const override { return kStockReceiveBuffer; }
   void Wake() override {}
   std::vector<std::string> Take() { return std::exchange(sent_, {}); }
 
@@ -88,22 +87,6 @@ TEST_F(PublisherOfStripes, WaitsForTheSlowestReceiverAndNamesIt) {
   publisher_.OnStatus(Received("voxelmap", "STRIPE", 1));
   EXPECT_EQ(Send(), Sent{"STRIPE 3"});
   EXPECT_EQ(publisher_.MakeStatus()[0].acknowledged, 1);
-}
-
-TEST_F(PublisherOfStripes, WidensTheWindowWhenAllReceiversHaveLargerBuffers) {
-  store_.Grow(20);
-  Send();
-  ServiceStatus mesher = Received("mesher", "STRIPE", 3);
-  ServiceStatus voxelmap = Received("voxelmap", "STRIPE", 3);
-  mesher.receive_buffer = 2 * kStockReceiveBuffer;
-  publisher_.OnStatus(mesher);
-  publisher_.OnStatus(voxelmap);
-  EXPECT_EQ(Send().size(), 3u);
-  voxelmap.inputs[0].received = mesher.inputs[0].received = 6;
-  voxelmap.receive_buffer = 2 * kStockReceiveBuffer;
-  publisher_.OnStatus(mesher);
-  publisher_.OnStatus(voxelmap);
-  EXPECT_EQ(Send().size(), 6u);
 }
 
 TEST_F(PublisherOfStripes, DoesNotTakeTheCreditOfStrangers) {

@@ -84,12 +84,37 @@ TEST(Stream, ArrivesCompleteAndInOrder) {
   ExpectComplete(chain.read(), 400);
 }
 
-TEST(Stream, FitsAStockReceiveBufferWithoutLoss) {
+ServiceSetup MakeSetup(const std::string& service, const TemporaryFolder& folder,
+                       std::vector<std::string> without = {}) {
+  return {service, 7, folder.path(), false, std::move(without), false};
+}
+
+TEST(Stream, NeverOverflowsTheStockBufferOfItsReceiver) {
+  MemoryBus bus(kStockReceiveBuffer);
+  TemporaryFolder folder;
+  TestService mesher(MakeSetup("mesher", folder, {"planner"}), std::make_unique<FakeMesher>(300, 55000), bus.Join());
+  TestService reporter(MakeSetup("reporter", folder), std::make_unique<FakeReader<MeshDelta>>(), bus.Join());
+  ASSERT_TRUE(reporter.WaitForEnd(seconds(20)));
+  EXPECT_EQ(bus.lost(), 0);
+  mesher.Stop();
+  EXPECT_LE(mesher.runner().publisher().ledger().peak_bytes(), static_cast<int64_t>(CalcWindowBytes("mesher")));
+}
+
+// Small messages along the chain and large ones from mesher and voxelmap to planner and reporter, through everybody's
+// buffers at once.
+TEST(Stream, ArrivesCompleteWhenAllServicesTalkTogether) {
   MemoryBus bus(kStockReceiveBuffer);
   Chain chain(OnMemory(bus), 2000);
+  TemporaryFolder folder;
+  TestService mesher(MakeSetup("mesher", folder), std::make_unique<FakeMesher>(100, 55000), bus.Join());
+  TestService voxelmap(MakeSetup("voxelmap", folder), std::make_unique<FakeVoxelmap>(100, 55000), bus.Join());
+  TestService planner(MakeSetup("planner", folder), std::make_unique<FakeReader<MeshDelta>>(), bus.Join());
+  TestService reporter(MakeSetup("reporter", folder), std::make_unique<FakeReader<VoxelDelta>>(), bus.Join());
   chain.StartAll();
   ASSERT_TRUE(chain.WaitForEnd());
-  EXPECT_EQ(bus.lost(), 0);
+  ASSERT_TRUE(reporter.WaitForEnd(seconds(20)));
+  ExpectComplete(chain.read(), 2000);
+  EXPECT_EQ(reporter.node<FakeReader<VoxelDelta>>().utimes().size(), 100u);
 }
 
 TEST(Stream, ArrivesCompleteThroughABufferThatIsMuchTooSmall) {

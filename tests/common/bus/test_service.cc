@@ -26,10 +26,13 @@ TestService::TestService(ServiceSetup setup, std::unique_ptr<Node> node, std::un
       failure_ = error.what();
     }
     ended_ = true;
+    // Like a process that is no more, it does not stand on the bus with a full buffer.
+    while (!stopped_) transport_->Poll(std::chrono::milliseconds(5), [](std::string_view, std::span<const uint8_t>) {});
   });
 }
 
 void TestService::Stop() {
+  stopped_ = true;
   runner_->Stop();
   if (thread_.joinable()) thread_.join();
   while (!runner_->JoinFold(std::chrono::milliseconds(100))) {

@@ -47,6 +47,7 @@ class TestService {
   std::unique_ptr<ServiceRunner> runner_;
   std::string failure_;
   std::atomic<bool> ended_{false};
+  std::atomic<bool> stopped_{false};
   std::thread thread_;
 };
 

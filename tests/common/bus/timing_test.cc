@@ -104,16 +104,8 @@ TEST(Window, OfAllWhoTalkAtOnceFitsAStockReceiveBuffer) {
   EXPECT_LE(CalcWindowBytes("planner") + CalcWindowBytes("coordinator") + kHeartbeats, kStockReceiveBuffer);
 }
 
-TEST(Window, GrowsWithTheReceiversBuffersUpToEightTimes) {
-  const auto stock = static_cast<int64_t>(kStockReceiveBuffer);
-  EXPECT_EQ(ScaleWindow(1000, 0), 1000);
-  EXPECT_EQ(ScaleWindow(1000, stock), 1000);
-  EXPECT_EQ(ScaleWindow(1000, 2 * stock), 2000);
-  EXPECT_EQ(ScaleWindow(1000, 100 * stock), 8000);
-}
-
 TEST(Window, GetsCreditBeforeTheNextMessageMeetsItsEnd) {
-  for (const int64_t window : {16500, 66000, 528000}) {
+  for (const int64_t window : {16500, 66000}) {
     for (const int64_t message : {1344, 2368, 37000, 65000}) {
       if (message > window) continue;
       // What a receiver may keep back is less than one step and one message, unless a single message fills the window.
