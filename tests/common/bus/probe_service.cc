@@ -30,6 +30,25 @@ class BusyMesher : public nbs::Node {
   void Handle(const nbs::Message&, nbs::Outbox&) override {}
 };
 
+// Publishes profiles without being asked.
+class ProfileSource : public nbs::Node {
+ public:
+  ProfileSource(int count, int points) : count_(count), points_(points) {}
+  void Start(nbs::Outbox& out) override {
+    for (int i = 0; i < count_; ++i) {
+      nbs::Profile profile{40000 * i, i + 1 == count_, {}};
+      if (!profile.end_of_scan) profile.ranges_m.assign(static_cast<size_t>(points_), 0.3f);
+      out.push_back(std::move(profile));
+    }
+  }
+  size_t NextInput() const override { return kNoInput; }
+  void Handle(const nbs::Message&, nbs::Outbox&) override {}
+
+ private:
+  int count_;
+  int points_;
+};
+
 std::unique_ptr<nbs::Node> MakeNode(const std::string& kind, int count, int size) {
   if (kind == "robot") return std::make_unique<nbs::FakeRobot>(count);
   if (kind == "simulator") return std::make_unique<nbs::FakeSimulator>(size);
@@ -37,6 +56,8 @@ std::unique_ptr<nbs::Node> MakeNode(const std::string& kind, int count, int size
   if (kind == "mesher") return std::make_unique<nbs::FakeMesher>(count, size);
   if (kind == "reporter") return std::make_unique<nbs::FakeReader<nbs::MeshDelta>>();
   if (kind == "voxelmap") return std::make_unique<nbs::FakeReader<nbs::Stripe>>();
+  if (kind == "profiles") return std::make_unique<ProfileSource>(count, size);
+  if (kind == "profile_reader") return std::make_unique<nbs::FakeReader<nbs::Profile>>();
   if (kind == "fickle") return std::make_unique<FickleSensor>();
   if (kind == "busy") return std::make_unique<BusyMesher>();
   return nullptr;
