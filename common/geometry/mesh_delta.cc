@@ -29,16 +29,23 @@ void MeshReplica::Apply(const MeshDelta& delta) {
   }
 }
 
-TriangleMesh MeshReplica::MakeCompactMesh() const {
-  constexpr uint32_t kNone = 0xffffffffu;
-  std::vector<uint32_t> compact(vertices_.size(), kNone);
+std::vector<uint32_t> MeshReplica::FindUsedVertices() const {
+  std::vector<bool> is_used(vertices_.size(), false);
   for (const auto& t : triangles_) {
     if (IsEmpty(t)) continue;
-    for (uint32_t v : t) compact.at(v) = 0;
+    for (uint32_t v : t) is_used.at(v) = true;
   }
-  TriangleMesh mesh;
+  std::vector<uint32_t> used;
   for (size_t v = 0; v < vertices_.size(); ++v) {
-    if (compact[v] == kNone) continue;
+    if (is_used[v]) used.push_back(static_cast<uint32_t>(v));
+  }
+  return used;
+}
+
+TriangleMesh MeshReplica::MakeCompactMesh() const {
+  TriangleMesh mesh;
+  std::vector<uint32_t> compact(vertices_.size(), 0);
+  for (uint32_t v : FindUsedVertices()) {
     compact[v] = static_cast<uint32_t>(mesh.vertices_W.size());
     mesh.vertices_W.push_back(vertices_[v].p_W);
     mesh.normals_W.push_back(vertices_[v].normal_W);

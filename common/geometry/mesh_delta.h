@@ -75,7 +75,11 @@ class MeshReplica {
 
   static bool IsEmpty(const std::array<uint32_t, 3>& t) { return t[0] == t[1]; }
 
-  /// The mesh without empty slots and without vertices that no triangle uses; order of the slots kept.
+  /// Slots of the vertices that a triangle uses, ascending.
+  std::vector<uint32_t> FindUsedVertices() const;
+
+  /// The mesh without empty slots and without vertices that no triangle uses: vertex i is that of
+  /// FindUsedVertices()[i], triangles in the order of their slots.
   TriangleMesh MakeCompactMesh() const;
 
  private:

@@ -31,16 +31,18 @@ class Stopwatch {
   double start_s_;
 };
 
-/// Why no candidate was chosen, in words: how many met which fate.
+/// Why no candidate was chosen, in words: how many of those that are left met which fate.
 std::string Explain(const std::vector<RatedCandidate>& rated) {
   std::array<int, kVerdicts> counts{};
   for (const RatedCandidate& candidate : rated) ++counts.at(static_cast<size_t>(candidate.verdict));
+  counts[static_cast<size_t>(Verdict::kDropped)] = 0;
+  counts[static_cast<size_t>(Verdict::kNoGain)] = 0;
   std::string reason;
   for (int v = 0; v < kVerdicts; ++v) {
-    if (counts[v] > 0)
-      reason += fmt::format("{}{} {}", reason.empty() ? "" : ", ", counts[v], ToString(static_cast<Verdict>(v)));
+    if (counts[v] == 0) continue;
+    reason += fmt::format("{}{} {}", reason.empty() ? "" : ", ", counts[v], ToString(static_cast<Verdict>(v)));
   }
-  return reason.empty() ? "the stack is empty" : reason;
+  return reason.empty() ? std::string(kStackIsEmpty) : reason;
 }
 
 }  // namespace

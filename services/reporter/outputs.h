@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+
+#include "common/config/run_config.h"
+#include "services/reporter/reporter_node.h"
+
+namespace nbs {
+
+/// Writes what a run leaves into its folder: model.ply, voxels.ot, bus.lcm, report.json and report.html. Each file
+/// appears whole or not at all; what was there before is replaced.
+///
+/// @throws ConfigError, std::runtime_error in one sentence if a file cannot be written.
+void WriteOutputs(const RunConfig& config, const ReporterNode& reporter);
+
+/// The mesh as model.ply holds it, with the properties of its vertices.
+void WriteModel(const MeshReplica& mesh, const std::filesystem::path& file);
+
+}  // namespace nbs
