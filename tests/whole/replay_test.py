@@ -68,9 +68,9 @@ class Replay(WholeRunTest):
         other = self.folder / "other"
         shutil.copytree(self.run_folder, other)
         text = (other / "run.yaml").read_text()
-        # As if its code had changed: it keeps further away from everything.
-        self.assertIn("body_margin_m: 0.02\n", text)
-        (other / "run.yaml").write_text(text.replace("body_margin_m: 0.02\n", "body_margin_m: 0.029\n"))
+        # As if its code had changed: it scans from nearer by.
+        self.assertIn("standoff_m: 0.325\n", text)
+        (other / "run.yaml").write_text(text.replace("standoff_m: 0.325\n", "standoff_m: 0.3\n"))
         _, errors = self.replay(2, run=other)
         self.assertTrue("PLAN" in errors or "CANDIDATES" in errors, errors)
 
