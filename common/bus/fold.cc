@@ -7,7 +7,9 @@
 namespace nbs {
 
 Fold::Fold(Node& node, Recorder& recorder, InputQueues& queues, std::function<void()> on_output)
-    : node_(node), recorder_(recorder), queues_(queues), on_output_(std::move(on_output)) {}
+    : node_(node), recorder_(recorder), queues_(queues), on_output_(std::move(on_output)) {
+  progress_.recovering = recorder_.IsRecovering();
+}
 
 FoldProgress Fold::progress() const {
   const std::lock_guard lock(mutex_);

@@ -18,7 +18,7 @@ struct FoldProgress {
   int64_t utime_us = 0;                 ///< Of the last one.
   size_t needs = Node::kNoInput;  ///< The stream whose next message it waits for or works on; kNoInput before the first
                                   ///< and when finished.
-  bool recovering = true;
+  bool recovering = false;
   bool finished = false;
   std::string failure;  ///< Why it stopped; empty if it did not fail.
   std::vector<std::pair<std::string, int64_t>> complaints;
