@@ -5,6 +5,7 @@
 #include <iostream>
 #include <string_view>
 
+#include "common/bus/merge.h"
 #include "common/bus/offline.h"
 #include "common/bus/service_main.h"
 #include "common/runtime/error.h"
@@ -19,6 +20,7 @@ int WriteOffline(const std::filesystem::path& run_folder) {
     const nbs::RunConfig config = nbs::ReadRunConfig(run_folder);
     nbs::ReporterNode reporter(config.grid, nbs::MakeEvaluator(config), nullptr);
     nbs::RunOffline(reporter, run_folder);
+    nbs::MergeHistories(run_folder / "streams", run_folder / "bus.lcm");
     nbs::WriteOutputs(config, reporter);
     return 0;
   } catch (const nbs::ConfigError& error) {

@@ -4,7 +4,6 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "common/bus/merge.h"
 #include "common/geometry/mesh_io.h"
 #include "common/mapping/octomap_exchange.h"
 #include "common/runtime/error.h"
@@ -71,7 +70,6 @@ void WriteOutputs(const RunConfig& config, const ReporterNode& reporter) {
   const double wall_s = CalcWallTime(config.folder);
   WriteModel(reporter.mesh(), config.folder / "model.ply");
   WriteOctomap(reporter.voxels(), config.folder / "voxels.ot");
-  MergeHistories(config.folder / "streams", config.folder / "bus.lcm");
   WriteText(config.folder / "report.json", MakeReportJson(config, reporter.record(), wall_s));
   WriteText(config.folder / "report.html",
             MakeReportHtml(config, reporter.record(), wall_s, RenderPictures(reporter.mesh().MakeCompactMesh())));

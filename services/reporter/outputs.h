@@ -7,8 +7,8 @@
 
 namespace nbs {
 
-/// Writes what a run leaves into its folder: model.ply, voxels.ot, bus.lcm, report.json and report.html. Each file
-/// appears whole or not at all; what was there before is replaced.
+/// Writes a run's results into its folder: model.ply, voxels.ot, report.json and report.html. Each file appears whole
+/// or not at all; what was there before is replaced.
 ///
 /// @throws ConfigError, std::runtime_error in one sentence if a file cannot be written.
 void WriteOutputs(const RunConfig& config, const ReporterNode& reporter);
