@@ -56,6 +56,11 @@ PlanMode ChooseMode(const RunSettings& settings, const RunLogicState& state) {
   return state.mode == PlanMode::kHole || settled ? PlanMode::kHole : PlanMode::kBoundary;
 }
 
+/// Share of edges that a scan added to the mesh before it.
+double CalcGrowth(const MeshScan& before, const MeshScan& after) {
+  return static_cast<double>(after.edges - before.edges) / static_cast<double>(std::max<int64_t>(before.edges, 1));
+}
+
 }  // namespace
 
 RunSettings MakeRunSettings(const RunConfig& config) {
@@ -69,12 +74,14 @@ RunSettings MakeRunSettings(const RunConfig& config) {
   return settings;
 }
 
+bool IsComplete(const RunSettings& settings, const MeshScan& before, const MeshScan& after) {
+  return after.completeness >= settings.completeness && CalcGrowth(before, after) < settings.complete_growth;
+}
+
 bool HasHardlyChanged(const RunSettings& settings, const MeshScan& before, const MeshScan& after) {
   const double missing = 1.0 - before.completeness;
   const double closed = after.completeness - before.completeness;
-  const auto grown = static_cast<double>(after.edges - before.edges);
-  return closed < settings.settled_closing * missing &&
-         grown < settings.settled_growth * static_cast<double>(before.edges);
+  return closed < settings.settled_closing * missing && CalcGrowth(before, after) < settings.settled_growth;
 }
 
 RunStep Begin(const RunSettings& /*settings*/) { return AskForPlan({}, 0, PlanMode::kFirst); }
@@ -108,7 +115,7 @@ RunStep Advance(const RunSettings& settings, const RunLogicState& state, const M
   next.settled = hardly ? state.settled + 1 : 0;
   next.last_scan = mesh;
   const int32_t scans = state.scan + 1;
-  if (scans >= settings.min_scans && mesh.completeness >= settings.completeness) {
+  if (state.last_scan && IsComplete(settings, *state.last_scan, mesh)) {
     return Finish(std::move(next), scans, false, "completeness_reached",
                   fmt::format("Mesh completeness {:.4f} of {:.4f} wanted.", mesh.completeness, settings.completeness));
   }

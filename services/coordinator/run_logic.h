@@ -13,8 +13,9 @@ namespace nbs {
 struct RunSettings {
   double completeness = 0.9875;  ///< Wanted mesh completeness (section III-F, eq. 3), 0 to 1.
   int max_scans = 30;            ///< >= 1.
-  int min_scans =
-      2;  ///< Completeness is not asked before: the first path was not planned and says nothing about the object.
+  // The wanted completeness counts only once the surface has stopped growing: eq. 3 rises merely because n_total does.
+  // A scan that adds this share to the edges does not end the run, nor does the first.
+  double complete_growth = 0.01;
   bool holes = true;  ///< The method has a hole phase (BH/IG); without, the run ends with the last boundary (B/IG).
   // The mesh completeness "hardly changed" (section III) when this many boundary scans in a row each closed less than
   // `settled_closing` of what was missing, 1 - completeness, and added less than `settled_growth` to the edges of the
@@ -73,6 +74,10 @@ RunStep Advance(const RunSettings& settings, const RunLogicState& state, const E
 ///
 /// @throws std::logic_error if no mesh, or that of another scan, is awaited.
 RunStep Advance(const RunSettings& settings, const RunLogicState& state, const MeshScan& mesh);
+
+/// True if the mesh `after` a scan is complete: as wanted, and hardly larger than that `before` it (RunSettings:
+/// complete_growth).
+bool IsComplete(const RunSettings& settings, const MeshScan& before, const MeshScan& after);
 
 /// True if the mesh `after` a scan has hardly changed from that `before` it (RunSettings: settled_closing,
 /// settled_growth).

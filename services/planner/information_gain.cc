@@ -11,13 +11,13 @@
 namespace nbs {
 namespace {
 
-/// Entropy along one ray in 1/65536 nat, up to the first occupied cell (the inner sum of eq. 2).
-uint32_t SumEntropy(const int16_t* cells, const uint16_t* entropy, const RayWalk& ray) {
+/// Gain along one ray in 1/65536 nat, up to the first occupied cell (the inner sum of eq. 2).
+uint32_t SumAlong(const uint16_t* values, const RayWalk& ray) {
   uint32_t sum = 0;
   WalkRay(ray, [&](int64_t index) {
-    const int16_t log_odds = cells[index];
-    if (IsOccupied(log_odds)) return false;
-    sum += entropy[static_cast<uint16_t>(log_odds)];
+    const uint16_t value = values[index];
+    if (value == GainMap::kWall) return false;
+    sum += value;
     return true;
   });
   return sum;
@@ -46,18 +46,17 @@ int InformationGain::CountStripes(const ScanPath& path) const {
   return static_cast<int>(std::floor(path.length_m() / stripe_spacing_m_ + 1e-6)) + 1;
 }
 
-int64_t InformationGain::CalcStripe(const VoxelGrid& grid, const Pose& X_WS, int beam_step) const {
-  const int16_t* cells = grid.cells().data();
-  const uint16_t* entropy = EntropyTable().data();
+int64_t InformationGain::CalcStripe(const GainMap& map, const Pose& X_WS, int beam_step) const {
+  const uint16_t* values = map.values().data();
   const int beams = static_cast<int>(beams_S_.size());
   int64_t sum = 0;
   for (int i = CalcFirst(beams, beam_step); i < beams; i += beam_step) {
-    sum += SumEntropy(cells, entropy, MakeRayWalk(grid.shape(), X_WS.translation(), X_WS * beams_S_[i]));
+    sum += SumAlong(values, MakeRayWalk(map.shape(), X_WS.translation(), X_WS * beams_S_[i]));
   }
   return sum;
 }
 
-int64_t InformationGain::Calc(const VoxelGrid& grid, const ScanPath& path, GainSampling sampling) const {
+int64_t InformationGain::Calc(const GainMap& map, const ScanPath& path, GainSampling sampling) const {
   if (sampling.stripe_step < 1 || sampling.beam_step < 1)
     throw std::invalid_argument("InformationGain: a sampling step below 1");
   const int stripes = CountStripes(path);
@@ -65,14 +64,14 @@ int64_t InformationGain::Calc(const VoxelGrid& grid, const ScanPath& path, GainS
   const int first = CalcFirst(stripes, sampling.stripe_step);
   int64_t sum = 0;
   for (int i = first; i < stripes; i += sampling.stripe_step) {
-    sum += CalcStripe(grid, CalcStripePose(path, stripe_spacing_m_, i), sampling.beam_step);
+    sum += CalcStripe(map, CalcStripePose(path, stripe_spacing_m_, i), sampling.beam_step);
   }
   const int64_t sampled = CountSampled(stripes, sampling.stripe_step, first) *
                           CountSampled(beams, sampling.beam_step, CalcFirst(beams, sampling.beam_step));
   return Scale(sum, static_cast<int64_t>(stripes) * beams, sampled);
 }
 
-std::vector<int64_t> InformationGain::CalcAll(const VoxelGrid& grid, std::span<const ScanPath> paths,
+std::vector<int64_t> InformationGain::CalcAll(const GainMap& map, std::span<const ScanPath> paths,
                                               GainSampling sampling, int threads) const {
   if (threads < 1) throw std::invalid_argument("InformationGain: " + std::to_string(threads) + " threads");
   if (sampling.stripe_step < 1 || sampling.beam_step < 1)
@@ -80,7 +79,7 @@ std::vector<int64_t> InformationGain::CalcAll(const VoxelGrid& grid, std::span<c
   std::vector<int64_t> gains(paths.size(), 0);
   // Each thread takes every threads-th path and writes to entries of its own.
   const auto work = [&](size_t first) {
-    for (size_t i = first; i < paths.size(); i += threads) gains[i] = Calc(grid, paths[i], sampling);
+    for (size_t i = first; i < paths.size(); i += threads) gains[i] = Calc(map, paths[i], sampling);
   };
   std::vector<std::jthread> helpers;
   for (int i = 1; i < threads; ++i) helpers.emplace_back(work, i);
@@ -89,7 +88,7 @@ std::vector<int64_t> InformationGain::CalcAll(const VoxelGrid& grid, std::span<c
   return gains;
 }
 
-std::vector<int64_t> InformationGain::CalcPerStripe(const VoxelGrid& grid, const ScanPath& path, int beam_step) const {
+std::vector<int64_t> InformationGain::CalcPerStripe(const GainMap& map, const ScanPath& path, int beam_step) const {
   if (beam_step < 1) throw std::invalid_argument("InformationGain: a sampling step below 1");
   const int stripes = CountStripes(path);
   const int beams = static_cast<int>(beams_S_.size());
@@ -97,7 +96,7 @@ std::vector<int64_t> InformationGain::CalcPerStripe(const VoxelGrid& grid, const
   std::vector<int64_t> gains;
   gains.reserve(stripes);
   for (int i = 0; i < stripes; ++i) {
-    gains.push_back(Scale(CalcStripe(grid, CalcStripePose(path, stripe_spacing_m_, i), beam_step), beams, sampled));
+    gains.push_back(Scale(CalcStripe(map, CalcStripePose(path, stripe_spacing_m_, i), beam_step), beams, sampled));
   }
   return gains;
 }

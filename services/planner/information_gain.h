@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "common/mapping/voxel_grid.h"
 #include "common/planning/scan_path.h"
 #include "common/sensing/profiler.h"
+#include "services/planner/gain_map.h"
 
 namespace nbs {
 
@@ -21,6 +21,8 @@ struct GainSampling {
 inline constexpr GainSampling kAllBeams = {1, 1};
 /// A sixteenth of the beams: for ranking.
 inline constexpr GainSampling kSixteenth = {4, 4};
+/// A sixty-fourth: for a first look at many.
+inline constexpr GainSampling kSixtyFourth = {8, 8};
 
 /// The information gain of scan paths (section III-D, eq. 2): the sum over all beams of a path, and over the cells
 /// along each beam from the emitter to the largest depth, of the cell's entropy (eq. 1). A beam ends before the first
@@ -38,18 +40,18 @@ class InformationGain {
   /// Gain of a path.
   ///
   /// @throws std::invalid_argument if a step of the sampling is not positive.
-  int64_t Calc(const VoxelGrid& grid, const ScanPath& path, GainSampling sampling) const;
+  int64_t Calc(const GainMap& map, const ScanPath& path, GainSampling sampling) const;
 
   /// The same of each path, evaluated by `threads` threads (>= 1); equal to Calc one by one.
-  std::vector<int64_t> CalcAll(const VoxelGrid& grid, std::span<const ScanPath> paths, GainSampling sampling,
+  std::vector<int64_t> CalcAll(const GainMap& map, std::span<const ScanPath> paths, GainSampling sampling,
                                int threads) const;
 
   /// Gain per stripe along the path, CountStripes entries, every `beam_step`-th beam scaled to all. With beam_step 1
-  /// their sum is Calc(grid, path, kAllBeams).
-  std::vector<int64_t> CalcPerStripe(const VoxelGrid& grid, const ScanPath& path, int beam_step) const;
+  /// their sum is Calc(map, path, kAllBeams).
+  std::vector<int64_t> CalcPerStripe(const GainMap& map, const ScanPath& path, int beam_step) const;
 
  private:
-  int64_t CalcStripe(const VoxelGrid& grid, const Pose& X_WS, int beam_step) const;
+  int64_t CalcStripe(const GainMap& map, const Pose& X_WS, int beam_step) const;
 
   double stripe_spacing_m_ = 0.0;
   double max_depth_m_ = 0.0;

@@ -12,11 +12,6 @@
 namespace nbs {
 namespace {
 
-/// A candidate that promises less than this is not worth a motion: the entropy of about thirty cells that were never
-/// observed.
-constexpr double kMinGain_nat = 20.0;
-constexpr int kGainThreads = 2;
-
 /// Adds the wall-clock time from construction to destruction to a sum.
 class Stopwatch {
  public:
@@ -47,14 +42,15 @@ std::string Explain(const std::vector<RatedCandidate>& rated) {
 
 }  // namespace
 
-PlannerNode::PlannerNode(const RunConfig& config, Clock clock)
+PlannerNode::PlannerNode(const RunConfig& config, Clock clock, const PlannerSettings& settings)
     : config_(config),
+      settings_(settings),
       clock_(std::move(clock)),
       next_input_(StreamOf<PlanRequest>()),
       voxels_(config.grid),
       gain_(config.cell.profiler),
       motion_(config),
-      selection_(kMinGain_nat),
+      selection_(settings.min_gain_nat),
       X_WS_now_(config.first_path.X_WS_start) {}
 
 void PlannerNode::Handle(const Message& message, Outbox& out) {
@@ -123,22 +119,24 @@ ScanSelection::Result PlannerNode::Select(const PlanRequest& request, PlanTiming
   }
   const double update_start_s = clock_();
   const MapClearance clearance(voxels_);
+  const GainMap gain_map(voxels_, settings_.gain_rule, settings_.gain_reach_m);
   timing.update_s = clock_() - update_start_s;
-  return selection_.Select(MakeTools(request, clearance, timing));
+  return selection_.Select(MakeTools(request, clearance, gain_map, timing));
 }
 
-SelectionTools PlannerNode::MakeTools(const PlanRequest& request, const Clearance& clearance,
+SelectionTools PlannerNode::MakeTools(const PlanRequest& request, const Clearance& clearance, const GainMap& gain_map,
                                       PlanTiming& timing) const {
   SelectionTools tools;
-  tools.estimate_gains = [this, &timing](std::span<const ScanPath> paths) {
+  tools.estimate_gains = [this, &gain_map, &timing](std::span<const ScanPath> paths) {
     Stopwatch watch(clock_, timing.gain_s);
     std::vector<double> gains_nat;
-    for (int64_t gain : gain_.CalcAll(voxels_, paths, kSixteenth, kGainThreads)) gains_nat.push_back(ToNats(gain));
+    for (int64_t gain : gain_.CalcAll(gain_map, paths, kSixtyFourth, settings_.gain_threads))
+      gains_nat.push_back(ToNats(gain));
     return gains_nat;
   };
-  tools.calc_gain = [this, &timing](const ScanPath& path) {
+  tools.calc_gain = [this, &gain_map, &timing](const ScanPath& path) {
     Stopwatch watch(clock_, timing.gain_s);
-    return ToNats(gain_.Calc(voxels_, path, kAllBeams));
+    return ToNats(gain_.Calc(gain_map, path, kAllBeams));
   };
   tools.check_path = [this, &clearance, &timing](const ScanPath& path) {
     Stopwatch watch(clock_, timing.motion_s);

@@ -14,6 +14,14 @@
 
 namespace nbs {
 
+struct PlannerSettings {
+  GainRule gain_rule = GainRule::kNearSurface;
+  double gain_reach_m = 0.025;  ///< For kNearSurface.
+  double min_gain_nat =
+      20.0;  ///< A candidate that promises less is not worth a motion: about thirty cells that were never observed.
+  int gain_threads = 2;
+};
+
 /// The planner without the bus: answers each request with the next best scan (Fig. 2, sections III-A to III-E).
 ///
 /// After each scan it reads that scan's mesh and voxel changes to their end, then the next request: an answer thus
@@ -23,7 +31,7 @@ class PlannerNode : public Node {
   /// Wall clock in seconds for the timing messages; it reaches nothing else.
   using Clock = std::function<double()>;
 
-  PlannerNode(const RunConfig& config, Clock clock);
+  PlannerNode(const RunConfig& config, Clock clock, const PlannerSettings& settings = {});
 
   size_t NextInput() const override { return next_input_; }
   void Handle(const Message& message, Outbox& out) override;
@@ -32,9 +40,11 @@ class PlannerNode : public Node {
   void Answer(const PlanRequest& request, Outbox& out);
   void AddCandidates(PlanMode mode);
   ScanSelection::Result Select(const PlanRequest& request, PlanTiming& timing);
-  SelectionTools MakeTools(const PlanRequest& request, const Clearance& clearance, PlanTiming& timing) const;
+  SelectionTools MakeTools(const PlanRequest& request, const Clearance& clearance, const GainMap& gain_map,
+                           PlanTiming& timing) const;
 
   RunConfig config_;
+  PlannerSettings settings_;
   Clock clock_;
   size_t next_input_;
   MeshReplica mesh_;

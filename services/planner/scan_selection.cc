@@ -1,23 +1,19 @@
 #include "services/planner/scan_selection.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace nbs {
 namespace {
 
 /// How much is known about a candidate in this round.
-enum class Stage { kBounded, kEstimated, kEvaluated, kChecked };
+enum class Stage { kEstimated, kEvaluated, kChecked };
 
 struct Entry {
   RatedCandidate rated;
-  Stage stage = Stage::kBounded;
+  Stage stage = Stage::kEstimated;
   bool partly = false;
 };
-
-/// Candidates that are estimated in one go, so that threads have something to share.
-constexpr size_t kBatch = 64;
 
 /// Order of a heap: the highest gain on top, of equals the oldest.
 bool IsWorse(const Entry& a, const Entry& b) {
@@ -51,27 +47,10 @@ class Heap {
     return entry;
   }
   bool empty() const { return entries_.empty(); }
-  const Entry& top() const { return entries_.front(); }
 
  private:
   std::vector<Entry> entries_;
 };
-
-/// Estimates the candidates on top that only have a bound from an earlier round.
-void EstimateTop(const SelectionTools& tools, Heap& heap) {
-  std::vector<Entry> entries;
-  std::vector<ScanPath> paths;
-  while (!heap.empty() && heap.top().stage == Stage::kBounded && entries.size() < kBatch) {
-    entries.push_back(heap.Pop());
-    paths.push_back(entries.back().rated.candidate.path);
-  }
-  const std::vector<double> gains_nat = tools.estimate_gains(paths);
-  for (size_t i = 0; i < entries.size(); ++i) {
-    entries[i].rated.gain_nat = gains_nat.at(i);
-    entries[i].stage = Stage::kEstimated;
-    heap.Push(std::move(entries[i]));
-  }
-}
 
 /// Takes the top candidate one stage further. True if it is the next best scan; otherwise it is back on the heap or,
 /// with its verdict, in `result.rated`.
@@ -115,28 +94,27 @@ bool Advance(Entry entry, double min_gain_nat, const SelectionTools& tools, Heap
 }  // namespace
 
 void ScanSelection::Add(std::span<const Candidate> candidates) {
-  for (const Candidate& candidate : candidates) stack_.push_back({candidate, std::numeric_limits<double>::infinity()});
+  stack_.insert(stack_.end(), candidates.begin(), candidates.end());
 }
 
 void ScanSelection::Drop(CandidateSource source) {
-  for (const Bounded& bounded : stack_) {
-    if (bounded.candidate.source == source) dropped_.push_back({bounded.candidate, 0.0, Verdict::kDropped});
+  for (const Candidate& candidate : stack_) {
+    if (candidate.source == source) dropped_.push_back({candidate, 0.0, Verdict::kDropped});
   }
-  std::erase_if(stack_, [source](const Bounded& bounded) { return bounded.candidate.source == source; });
+  std::erase_if(stack_, [source](const Candidate& candidate) { return candidate.source == source; });
 }
 
 ScanSelection::Result ScanSelection::Select(const SelectionTools& tools) {
   Result result;
   result.rated = std::exchange(dropped_, {});
+  std::vector<ScanPath> paths;
+  paths.reserve(stack_.size());
+  for (const Candidate& candidate : stack_) paths.push_back(candidate.path);
+  const std::vector<double> gains_nat = tools.estimate_gains(paths);
+
   Heap heap;
-  for (const Bounded& bounded : stack_) heap.Push({{bounded.candidate, bounded.gain_nat, Verdict::kNotTried}});
-  while (!heap.empty() && !result.found) {
-    if (heap.top().stage == Stage::kBounded && heap.top().rated.gain_nat >= min_gain_nat_) {
-      EstimateTop(tools, heap);
-    } else {
-      Advance(heap.Pop(), min_gain_nat_, tools, heap, result);
-    }
-  }
+  for (size_t i = 0; i < stack_.size(); ++i) heap.Push({{stack_[i], gains_nat.at(i), Verdict::kNotTried}});
+  while (!heap.empty() && !result.found) Advance(heap.Pop(), min_gain_nat_, tools, heap, result);
   while (!heap.empty()) {
     Entry entry = heap.Pop();
     if (entry.rated.gain_nat < min_gain_nat_) {
@@ -149,9 +127,9 @@ ScanSelection::Result ScanSelection::Select(const SelectionTools& tools) {
 
   stack_.clear();
   for (const RatedCandidate& rated : result.rated) {
-    if (StaysOnStack(rated.verdict)) stack_.push_back({rated.candidate, rated.gain_nat});
+    if (StaysOnStack(rated.verdict)) stack_.push_back(rated.candidate);
   }
-  std::ranges::sort(stack_, {}, [](const Bounded& bounded) { return bounded.candidate.id; });
+  std::ranges::sort(stack_, {}, &Candidate::id);
   return result;
 }
 

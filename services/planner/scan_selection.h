@@ -58,23 +58,16 @@ class ScanSelection {
 
   /// Rates the whole stack and selects.
   ///
-  /// Lazy greedy (Minoux, "Accelerated greedy algorithms for maximizing submodular set functions", 1978,
-  /// DOI 10.1007/BFb0006528): what a scan makes known can only lower a gain, so that a candidate's gain of an earlier
-  /// round bounds today's, and only those whose bound is on top are estimated again. From the top, each is then
-  /// evaluated with all beams, checked, and given a motion, until one is left that no other can surpass. A candidate of
-  /// which only a part can be reached competes with the gain of that part. Ties go to the older candidate. Off the
-  /// stack go: the chosen one, and those blocked by an obstacle, outside of the work space, or without gain. Those
-  /// blocked by unknown space or without a motion stay.
+  /// All candidates are ranked by the estimated gain; from the top, each is then evaluated with all beams, checked, and
+  /// given a motion, until one is left that no other can surpass. A candidate of which only a part can be reached
+  /// competes with the gain of that part. Ties go to the older candidate. Off the stack go: the chosen one, and those
+  /// blocked by an obstacle, outside of the work space, or without gain. Those blocked by unknown space or without a
+  /// motion stay.
   Result Select(const SelectionTools& tools);
 
  private:
-  struct Bounded {
-    Candidate candidate;
-    double gain_nat = 0.0;  ///< The last that is known: an upper bound; infinite for a new candidate.
-  };
-
   double min_gain_nat_;
-  std::vector<Bounded> stack_;
+  std::vector<Candidate> stack_;
   std::vector<RatedCandidate> dropped_;
 };
 

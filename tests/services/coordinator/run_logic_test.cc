@@ -123,11 +123,20 @@ TEST(RunLogic, ARefusedTrajectoryFailsTheRun) {
 }
 
 TEST(RunLogic, ACompleteMeshEndsTheRun) {
-  const RunStep step = Advance(kSettings, MakeState(Awaiting::kMeshScan, 3, PlanMode::kBoundary), MakeMesh(3, 0.9875));
+  RunLogicState state = MakeState(Awaiting::kMeshScan, 3, PlanMode::kBoundary);
+  state.last_scan = MakeMesh(2, 0.98, 9'950);
+  const RunStep step = Advance(kSettings, state, MakeMesh(3, 0.9875));
   EXPECT_EQ(step.state.awaiting, Awaiting::kNothing);
   EXPECT_EQ(Find<RunState>(step).end_reason, "completeness_reached");
   EXPECT_EQ(Find<RunState>(step).scan, 4);
   EXPECT_FALSE(Find<RunState>(step).failed);
+}
+
+TEST(RunLogic, AMeshThatStillGrowsIsNotComplete) {
+  RunLogicState state = MakeState(Awaiting::kMeshScan, 3, PlanMode::kBoundary);
+  state.last_scan = MakeMesh(2, 0.98, 9'500);
+  const RunStep step = Advance(kSettings, state, MakeMesh(3, 0.9875));
+  EXPECT_EQ(Find<PlanRequest>(step).scan, 4);
 }
 
 TEST(RunLogic, TheFirstScanAloneDoesNotCompleteTheMesh) {

@@ -73,7 +73,7 @@ TEST(InformationGain, IsTheSumOfEquation2) {
     const VoxelGrid grid = MakeMixedBox(i);
     const ScanPath path = MakeRandomPath(engine);
     const double expected = CalcByDefinition(profiler, grid, path);
-    EXPECT_NEAR(ToNats(gain.Calc(grid, path, kAllBeams)), expected, 1e-5 * expected + 1.0);
+    EXPECT_NEAR(ToNats(gain.Calc(GainMap(grid), path, kAllBeams)), expected, 1e-5 * expected + 1.0);
   }
 }
 
@@ -90,7 +90,7 @@ TEST(InformationGain, OfAnUnknownBoxIsLn2PerCellFromEverySide) {
       // Off the cells' faces.
       for (Pose* X_WS : {&path.X_WS_start, &path.X_WS_end}) X_WS->translation() += Eigen::Vector3d::Constant(0.0011);
       const double cells = 51.0 * 224.0 * 40.0;
-      EXPECT_NEAR(ToNats(gain.Calc(grid, path, kAllBeams)) / cells, std::numbers::ln2, 1e-5);
+      EXPECT_NEAR(ToNats(gain.Calc(GainMap(grid), path, kAllBeams)) / cells, std::numbers::ln2, 1e-5);
     }
   }
 }
@@ -99,7 +99,7 @@ TEST(InformationGain, OfSpaceThatIsOutsideTheGridIsZero) {
   const InformationGain gain{Profiler{}};
   ScanPath path = MakePath(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), 0.1);
   for (Pose* X_WS : {&path.X_WS_start, &path.X_WS_end}) X_WS->translation().y() += 1.0;
-  EXPECT_EQ(gain.Calc(MakeUnknownBox(), path, kAllBeams), 0);
+  EXPECT_EQ(gain.Calc(GainMap(MakeUnknownBox()), path, kAllBeams), 0);
 }
 
 TEST(InformationGain, AWallOccludesWhatIsBehind) {
@@ -112,8 +112,8 @@ TEST(InformationGain, AWallOccludesWhatIsBehind) {
       for (int y = 20; y < 40; ++y) half.cells()[half.shape().Index(x, y, z)] = 5000;
     }
   }
-  const std::vector<int64_t> stripes = gain.CalcPerStripe(wall, path, 1);
-  const std::vector<int64_t> open = gain.CalcPerStripe(MakeUnknownBox(), path, 1);
+  const std::vector<int64_t> stripes = gain.CalcPerStripe(GainMap(wall), path, 1);
+  const std::vector<int64_t> open = gain.CalcPerStripe(GainMap(MakeUnknownBox()), path, 1);
   EXPECT_EQ(*std::ranges::max_element(stripes), 0);
   EXPECT_GT(*std::ranges::min_element(open), 0);
   // Nothing that stands behind the wall changes the sum.
@@ -121,7 +121,7 @@ TEST(InformationGain, AWallOccludesWhatIsBehind) {
   for (int z = 0; z < 40; ++z) {
     for (int x = 0; x < 40; ++x) wall_and_more.cells()[half.shape().Index(x, 30, z)] = -5000;
   }
-  EXPECT_EQ(gain.Calc(half, path, kAllBeams), gain.Calc(wall_and_more, path, kAllBeams));
+  EXPECT_EQ(gain.Calc(GainMap(half), path, kAllBeams), gain.Calc(GainMap(wall_and_more), path, kAllBeams));
 }
 
 TEST(InformationGain, CountsUpToTheLargestDepthOfEachBeam) {
@@ -138,7 +138,7 @@ TEST(InformationGain, CountsUpToTheLargestDepthOfEachBeam) {
           grid.cells()[grid.shape().Index(x, y, z)] = y == layer ? kUnobserved : int16_t{-32767};
       }
     }
-    return ToNats(gain.Calc(grid, path, kAllBeams));
+    return ToNats(gain.Calc(GainMap(grid), path, kAllBeams));
   };
   int beams = 0;
   for (const Eigen::Vector3d& beam_S : CalcBeamDirections_S(profiler))
@@ -152,11 +152,11 @@ TEST(InformationGain, NeverGrowsWhenACellGetsSurer) {
   std::mt19937_64 engine(2);
   const ScanPath path = MakeRandomPath(engine);
   VoxelGrid grid = MakeUnknownBox();
-  int64_t before = gain.Calc(grid, path, kAllBeams);
+  int64_t before = gain.Calc(GainMap(grid), path, kAllBeams);
   for (int round = 0; round < 20; ++round) {
     for (int i = 0; i < 3000; ++i)
       grid.cells()[engine() % grid.cells().size()] = static_cast<int16_t>(-200 * round - 1);
-    const int64_t after = gain.Calc(grid, path, kAllBeams);
+    const int64_t after = gain.Calc(GainMap(grid), path, kAllBeams);
     EXPECT_LE(after, before);
     before = after;
   }
@@ -168,9 +168,9 @@ TEST(InformationGain, DoesNotDependOnTheNumberOfThreads) {
   std::vector<ScanPath> paths;
   for (int i = 0; i < 9; ++i) paths.push_back(MakeRandomPath(engine));
   const VoxelGrid grid = MakeMixedBox(4);
-  const std::vector<int64_t> one = gain.CalcAll(grid, paths, kSixteenth, 1);
-  for (const int threads : {2, 3, 20}) EXPECT_EQ(gain.CalcAll(grid, paths, kSixteenth, threads), one);
-  for (size_t i = 0; i < paths.size(); ++i) EXPECT_EQ(gain.Calc(grid, paths[i], kSixteenth), one[i]);
+  const std::vector<int64_t> one = gain.CalcAll(GainMap(grid), paths, kSixteenth, 1);
+  for (const int threads : {2, 3, 20}) EXPECT_EQ(gain.CalcAll(GainMap(grid), paths, kSixteenth, threads), one);
+  for (size_t i = 0; i < paths.size(); ++i) EXPECT_EQ(gain.Calc(GainMap(grid), paths[i], kSixteenth), one[i]);
 }
 
 TEST(InformationGain, OfASixteenthOfTheBeamsIsNearThatOfAll) {
@@ -179,8 +179,8 @@ TEST(InformationGain, OfASixteenthOfTheBeamsIsNearThatOfAll) {
   const VoxelGrid grid = MakeUnknownBox();
   for (int i = 0; i < 10; ++i) {
     const ScanPath path = MakeRandomPath(engine);
-    const double all = ToNats(gain.Calc(grid, path, kAllBeams));
-    EXPECT_NEAR(ToNats(gain.Calc(grid, path, kSixteenth)), all, 0.02 * all);
+    const double all = ToNats(gain.Calc(GainMap(grid), path, kAllBeams));
+    EXPECT_NEAR(ToNats(gain.Calc(GainMap(grid), path, kSixteenth)), all, 0.02 * all);
   }
 }
 
@@ -189,11 +189,11 @@ TEST(InformationGain, OfTheStripesAddsUpToThatOfThePath) {
   std::mt19937_64 engine(6);
   const VoxelGrid grid = MakeMixedBox(7);
   const ScanPath path = MakeRandomPath(engine);
-  const std::vector<int64_t> stripes = gain.CalcPerStripe(grid, path, 1);
+  const std::vector<int64_t> stripes = gain.CalcPerStripe(GainMap(grid), path, 1);
   EXPECT_EQ(static_cast<int>(stripes.size()), gain.CountStripes(path));
   int64_t sum = 0;
   for (const int64_t stripe : stripes) sum += stripe;
-  EXPECT_EQ(sum, gain.Calc(grid, path, kAllBeams));
+  EXPECT_EQ(sum, gain.Calc(GainMap(grid), path, kAllBeams));
 }
 
 TEST(InformationGain, CountsOneStripePerSpacingAndBothEnds) {
@@ -211,19 +211,19 @@ TEST(InformationGain, CountsOneStripePerSpacingAndBothEnds) {
 TEST(InformationGain, OfAStandingSensorIsThatOfOneStripe) {
   const InformationGain gain{Profiler{}};
   const ScanPath path = MakePath(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), 0.0);
-  EXPECT_GT(gain.Calc(MakeUnknownBox(), path, kAllBeams), 0);
-  EXPECT_GT(gain.Calc(MakeUnknownBox(), path, kSixteenth), 0);
+  EXPECT_GT(gain.Calc(GainMap(MakeUnknownBox()), path, kAllBeams), 0);
+  EXPECT_GT(gain.Calc(GainMap(MakeUnknownBox()), path, kSixteenth), 0);
 }
 
 TEST(InformationGain, RefusesStepsAndThreadsBelowOne) {
   const InformationGain gain{Profiler{}};
   const VoxelGrid grid = MakeUnknownBox();
   const ScanPath path = MakePath(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), 0.0);
-  EXPECT_THROW((void)gain.Calc(grid, path, {0, 1}), std::invalid_argument);
-  EXPECT_THROW((void)gain.Calc(grid, path, {1, -1}), std::invalid_argument);
-  EXPECT_THROW((void)gain.CalcPerStripe(grid, path, 0), std::invalid_argument);
-  EXPECT_THROW((void)gain.CalcAll(grid, std::vector{path}, {0, 1}, 2), std::invalid_argument);
-  EXPECT_THROW((void)gain.CalcAll(grid, std::vector{path}, kAllBeams, 0), std::invalid_argument);
+  EXPECT_THROW((void)gain.Calc(GainMap(grid), path, {0, 1}), std::invalid_argument);
+  EXPECT_THROW((void)gain.Calc(GainMap(grid), path, {1, -1}), std::invalid_argument);
+  EXPECT_THROW((void)gain.CalcPerStripe(GainMap(grid), path, 0), std::invalid_argument);
+  EXPECT_THROW((void)gain.CalcAll(GainMap(grid), std::vector{path}, {0, 1}, 2), std::invalid_argument);
+  EXPECT_THROW((void)gain.CalcAll(GainMap(grid), std::vector{path}, kAllBeams, 0), std::invalid_argument);
 }
 
 }  // namespace

@@ -14,7 +14,6 @@ struct MadeUpWorld {
   std::map<int, Verdict> checks;
   std::map<int, int> parts;  ///< Length of the part that can be reached.
   int motions_planned = 0;
-  int estimates = 0;
 
   static int Key(const ScanPath& path) { return static_cast<int>(std::lround(1000.0 * path.length_m())); }
 
@@ -29,7 +28,6 @@ struct MadeUpWorld {
     tools.estimate_gains = [this](std::span<const ScanPath> paths) {
       std::vector<double> estimated;
       for (const ScanPath& path : paths) estimated.push_back(gains.at(Key(path)));
-      estimates += static_cast<int>(paths.size());
       return estimated;
     };
     tools.calc_gain = [this](const ScanPath& path) { return gains.at(Key(path)); };
@@ -107,24 +105,6 @@ TEST(ScanSelection, EachCandidateGetsExactlyOneVerdictARound) {
   EXPECT_EQ(counts[Verdict::kChosen], 1);
   EXPECT_EQ(counts[Verdict::kNoGain], 1);
   EXPECT_EQ(counts[Verdict::kNotTried], 2);
-}
-
-TEST(ScanSelection, OnlyCandidatesWhoseOldGainIsOnTopAreEstimatedAgain) {
-  MadeUpWorld world;
-  std::vector<int> lengths_mm;
-  for (int length_mm = 1; length_mm <= 500; ++length_mm) {
-    lengths_mm.push_back(length_mm);
-    world.gains[length_mm] = 1000.0 + length_mm;
-  }
-  ScanSelection selection(1.0);
-  selection.Add(MakeCandidates(lengths_mm));
-  EXPECT_EQ(selection.Select(world.MakeTools()).chosen.candidate.id, 499);
-  EXPECT_EQ(world.estimates, 500);
-  // The gains of the upper half collapse: the best is then the highest of the lower half.
-  for (int length_mm = 251; length_mm <= 500; ++length_mm) world.gains[length_mm] = 2.0;
-  world.estimates = 0;
-  EXPECT_EQ(selection.Select(world.MakeTools()).chosen.candidate.id, 249);
-  EXPECT_LT(world.estimates, 350);
 }
 
 TEST(ScanSelection, OfEqualGainsTheOlderWins) {
