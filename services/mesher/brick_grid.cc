@@ -30,9 +30,9 @@ int32_t BrickGrid::InsertBrick(uint64_t key) {
   }
   keys_[slot] = key + 1;
   values_[slot] = static_cast<int32_t>(bricks_.size());
-  bricks_.emplace_back();
-  bricks_.back().heads.fill(kNone);
-  bricks_.back().rows.fill(0);
+  bricks_.push_back(std::make_unique<Brick>());
+  bricks_.back()->heads.fill(kNone);
+  bricks_.back()->rows.fill(0);
   return values_[slot];
 }
 
@@ -51,26 +51,28 @@ void BrickGrid::Grow() {
 
 int32_t& BrickGrid::Touch(const Eigen::Vector3f& p_W) {
   const Cell cell = CellOf(p_W);
-  Brick& brick = bricks_[InsertBrick(KeyOf(cell.x() >> 3, cell.y() >> 3, cell.z() >> 3))];
-  const int x = cell.x() & 7, y = cell.y() & 7, z = cell.z() & 7;
-  brick.rows[8 * x + y] |= static_cast<uint8_t>(1u << z);
-  return brick.heads[64 * x + 8 * y + z];
+  Brick& brick = *bricks_[InsertBrick(KeyOf(cell.x() >> kShift, cell.y() >> kShift, cell.z() >> kShift))];
+  const int x = cell.x() & kMask, y = cell.y() & kMask, z = cell.z() & kMask;
+  brick.rows[kEdge * x + y] |= static_cast<uint16_t>(1u << z);
+  return brick.heads[kEdge * (kEdge * x + y) + z];
 }
 
 int32_t BrickGrid::Find(const Eigen::Vector3f& p_W) const {
   const Cell cell = CellOf(p_W);
-  const int32_t brick = FindBrick(KeyOf(cell.x() >> 3, cell.y() >> 3, cell.z() >> 3));
-  return brick == kNone ? kNone : bricks_[brick].heads[64 * (cell.x() & 7) + 8 * (cell.y() & 7) + (cell.z() & 7)];
+  const int32_t brick = FindBrick(KeyOf(cell.x() >> kShift, cell.y() >> kShift, cell.z() >> kShift));
+  return brick == kNone
+             ? kNone
+             : bricks_[brick]->heads[kEdge * (kEdge * (cell.x() & kMask) + (cell.y() & kMask)) + (cell.z() & kMask)];
 }
 
 void BrickGrid::Clear(const Eigen::Vector3f& p_W) {
   const Cell cell = CellOf(p_W);
-  const int32_t number = FindBrick(KeyOf(cell.x() >> 3, cell.y() >> 3, cell.z() >> 3));
+  const int32_t number = FindBrick(KeyOf(cell.x() >> kShift, cell.y() >> kShift, cell.z() >> kShift));
   if (number == kNone) return;
-  Brick& brick = bricks_[number];
-  const int x = cell.x() & 7, y = cell.y() & 7, z = cell.z() & 7;
-  brick.rows[8 * x + y] &= static_cast<uint8_t>(~(1u << z));
-  brick.heads[64 * x + 8 * y + z] = kNone;
+  Brick& brick = *bricks_[number];
+  const int x = cell.x() & kMask, y = cell.y() & kMask, z = cell.z() & kMask;
+  brick.rows[kEdge * x + y] &= static_cast<uint16_t>(~(1u << z));
+  brick.heads[kEdge * (kEdge * x + y) + z] = kNone;
 }
 
 }  // namespace nbs

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace nbs {
@@ -41,9 +42,10 @@ class BrickGrid {
   void ForEachCell(const Eigen::Vector3f& p_W, float radius_m, Visit&& visit) const;
 
  private:
+  static constexpr int kShift = 4, kEdge = 1 << kShift, kMask = kEdge - 1;
   struct Brick {
-    std::array<int32_t, 512> heads;
-    std::array<uint8_t, 64> rows;  // Bit z of byte 8 x + y: the cell holds something.
+    std::array<int32_t, kEdge * kEdge * kEdge> heads;
+    std::array<uint16_t, kEdge * kEdge> rows;  // Bit z of row (x, y): the cell holds something.
   };
   using Cell = Eigen::Vector3i;
 
@@ -68,19 +70,19 @@ class BrickGrid {
   float inverse_cell_;
   std::vector<uint64_t> keys_;   // Hash table: key of the brick + 1; 0: free.
   std::vector<int32_t> values_;  // Beside it: number of the brick.
-  std::vector<Brick> bricks_;
+  std::vector<std::unique_ptr<Brick>> bricks_;
 };
 
 template <typename Visit>
 void BrickGrid::VisitBrick(const Brick& brick, const Cell& low, const Cell& high, Visit& visit) {
-  const unsigned span = (0xffu << low.z()) & (0xffu >> (7 - high.z()));
+  const unsigned span = (0xffffu << low.z()) & (0xffffu >> (kMask - high.z()));
   for (int x = low.x(); x <= high.x(); ++x) {
     for (int y = low.y(); y <= high.y(); ++y) {
-      unsigned row = brick.rows[8 * x + y] & span;
+      unsigned row = brick.rows[kEdge * x + y] & span;
       while (row != 0) {
         const int z = __builtin_ctz(row);
         row &= row - 1;
-        visit(brick.heads[64 * x + 8 * y + z]);
+        visit(brick.heads[kEdge * (kEdge * x + y) + z]);
       }
     }
   }
@@ -90,13 +92,13 @@ template <typename Visit>
 void BrickGrid::ForEachCell(const Eigen::Vector3f& p_W, float radius_m, Visit&& visit) const {
   const Cell low = CellOf(p_W - Eigen::Vector3f::Constant(radius_m));
   const Cell high = CellOf(p_W + Eigen::Vector3f::Constant(radius_m));
-  for (int x = low.x() >> 3; x <= high.x() >> 3; ++x) {
-    for (int y = low.y() >> 3; y <= high.y() >> 3; ++y) {
-      for (int z = low.z() >> 3; z <= high.z() >> 3; ++z) {
+  for (int x = low.x() >> kShift; x <= high.x() >> kShift; ++x) {
+    for (int y = low.y() >> kShift; y <= high.y() >> kShift; ++y) {
+      for (int z = low.z() >> kShift; z <= high.z() >> kShift; ++z) {
         const int32_t brick = FindBrick(KeyOf(x, y, z));
         if (brick == kNone) continue;
-        const Cell origin(8 * x, 8 * y, 8 * z);
-        VisitBrick(bricks_[brick], (low - origin).cwiseMax(0), (high - origin).cwiseMin(7), visit);
+        const Cell origin(kEdge * x, kEdge * y, kEdge * z);
+        VisitBrick(*bricks_[brick], (low - origin).cwiseMax(0), (high - origin).cwiseMin(kMask), visit);
       }
     }
   }

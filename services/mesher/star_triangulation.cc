@@ -3,13 +3,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
+#include "services/mesher/border_loop.h"
 #include "services/mesher/small_parts.h"
 
 namespace nbs {
 namespace {
+
+void SortUnique(std::vector<uint32_t>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
 
 SurfaceCorner MakeCorner(const Vertex& v) { return {v.p_W, v.normal_W}; }
 
@@ -20,11 +24,14 @@ float CalcCircumradius(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const
 
 }  // namespace
 
+StarTriangulation::StarTriangulation(const TriangulationSettings& settings)
+    : settings_(settings), least_normal_cosine_(std::cos(settings.max_normal_angle_rad)) {}
+
 bool StarTriangulation::MayJoin(const Vertex& a, const Vertex& b) const {
   const Eigen::Vector3f d = b.p_W - a.p_W;
   const float squared_length = d.squaredNorm();
   if (squared_length > settings_.max_edge_m * settings_.max_edge_m || squared_length == 0.0f) return false;
-  if (a.normal_W.dot(b.normal_W) < std::cos(settings_.max_normal_angle_rad)) return false;
+  if (a.normal_W.dot(b.normal_W) < least_normal_cosine_) return false;
   // The chord over a ridge between two planes leans from the plane across the mean normal by at most half the angle
   // between the normals.
   const Eigen::Vector3f sum = a.normal_W + b.normal_W;
@@ -58,7 +65,10 @@ void StarTriangulation::Update(std::span<const uint32_t> due, VertexStore& verti
   ReturnHeldBack(vertices);
   touched_in_update_ = touched_;
   FillLoops(vertices);
-  HoldBackSmallParts();
+  HoldBackLesserFans();
+  FillLoops(vertices);  // What was held back may have left a loop that other triangles close without a second fan.
+  HoldBackLesserFans();
+  HoldBackIslands();
 }
 
 void StarTriangulation::ReturnHeldBack(const VertexStore& vertices) {
@@ -82,22 +92,23 @@ void StarTriangulation::ReturnHeldBack(const VertexStore& vertices) {
   }
 }
 
-void StarTriangulation::HoldBackSmallParts() {
+void StarTriangulation::HoldBackLesserFans() {
+  touched_ = touched_in_update_;
   std::vector<uint32_t> round;
-  touched_.swap(touched_in_update_);
-  std::vector<uint32_t> all = touched_;
   while (!touched_.empty()) {
     round.clear();
     round.swap(touched_);
-    std::sort(round.begin(), round.end());
-    round.erase(std::unique(round.begin(), round.end()), round.end());
+    SortUnique(round);
     for (uint32_t id : round) HoldBack(FindLesserFans(topology_, id));
-    all.insert(all.end(), touched_.begin(), touched_.end());
+    touched_in_update_.insert(touched_in_update_.end(), touched_.begin(), touched_.end());
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  SortUnique(touched_in_update_);
+  touched_ = touched_in_update_;
+}
+
+void StarTriangulation::HoldBackIslands() {
   std::vector<uint32_t> successors;
-  for (uint32_t id : all) {
+  for (uint32_t id : touched_in_update_) {
     topology_.FindBorderSuccessors(id, successors);
     if (!successors.empty()) HoldBack(FindIsland(topology_, topology_.TrianglesAt(id).front(), settings_.least_part));
   }
@@ -123,21 +134,9 @@ void StarTriangulation::FillLoops(const VertexStore& vertices) {
   while (!touched_.empty()) {  // A filling can untangle the loop beside it: its vertices are looked at once more.
     round.clear();
     round.swap(touched_);
-    std::sort(round.begin(), round.end());
-    round.erase(std::unique(round.begin(), round.end()), round.end());
+    SortUnique(round);
     for (uint32_t id : round) {
       if (vertices[id].state == Vertex::State::kReal) FillLoopsAt(id, vertices);
-    }
-  }
-}
-
-void StarTriangulation::Detach(uint32_t id) {
-  while (!topology_.TrianglesAt(id).empty()) {
-    const uint32_t slot = topology_.TrianglesAt(id).front();
-    if (topology_.group(slot) == kAgreed) {
-      RemoveTriangle(slot);
-    } else {
-      RemoveFilling(topology_.group(slot));
     }
   }
 }
@@ -221,48 +220,6 @@ void StarTriangulation::RemoveFilling(int32_t group) {
   free_fillings_.push_back(group);
 }
 
-uint32_t StarTriangulation::FindLoopNext(uint32_t from, uint32_t at, const VertexStore& vertices,
-                                         std::vector<uint32_t>& successors) const {
-  topology_.FindBorderSuccessors(at, successors);
-  if (successors.size() == 1) return successors[0];
-  // Several gaps meet here: the gap on the left of the way in ends at the first border clockwise from the way back.
-  const Vertex& v = vertices[at];
-  const Eigen::Vector3f x_W = v.normal_W.unitOrthogonal();
-  const Eigen::Vector3f y_W = v.normal_W.cross(x_W);
-  const auto angle_of = [&](uint32_t id) {
-    const Eigen::Vector3f d = vertices[id].p_W - v.p_W;
-    return std::atan2(d.dot(y_W), d.dot(x_W));
-  };
-  const float back = angle_of(from);
-  uint32_t best = MeshTopology::kNone;
-  float best_turn = std::numeric_limits<float>::max();
-  for (uint32_t id : successors) {
-    float turn = back - angle_of(id);
-    while (turn <= 0.0f) turn += 2.0f * std::numbers::pi_v<float>;
-    if (turn < best_turn || (turn == best_turn && id < best)) {
-      best = id;
-      best_turn = turn;
-    }
-  }
-  return best;
-}
-
-bool StarTriangulation::FindLoop(uint32_t start, uint32_t second, const VertexStore& vertices,
-                                 std::vector<uint32_t>& loop) const {
-  std::vector<uint32_t> successors;
-  loop.assign({start});
-  uint32_t from = start, at = second;
-  while (at != start) {
-    if (at == MeshTopology::kNone || static_cast<int>(loop.size()) == settings_.max_loop_edges) return false;
-    if (std::find(loop.begin(), loop.end(), at) != loop.end()) return false;
-    loop.push_back(at);
-    const uint32_t next = FindLoopNext(from, at, vertices, successors);
-    from = at;
-    at = next;
-  }
-  return loop.size() >= 3;
-}
-
 void StarTriangulation::FillLoopsAt(uint32_t id, const VertexStore& vertices) {
   std::vector<uint32_t> successors, loop;
   topology_.FindBorderSuccessors(id, successors);
@@ -270,7 +227,7 @@ void StarTriangulation::FillLoopsAt(uint32_t id, const VertexStore& vertices) {
   for (uint32_t second : successors) {
     if (topology_.Find(second, id) == MeshTopology::kNone || topology_.Find(id, second) != MeshTopology::kNone)
       continue;
-    if (FindLoop(id, second, vertices, loop)) FillLoop(loop, vertices);
+    if (FindBorderLoop(topology_, vertices, id, second, settings_.max_loop_edges, loop)) FillLoop(loop, vertices);
   }
 }
 

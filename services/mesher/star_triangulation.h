@@ -12,44 +12,47 @@
 namespace nbs {
 
 struct TriangulationSettings {
-  float max_edge_m = 0.006f;           ///< R_max: no triangle has a longer edge.
-  float max_circumradius_m = 0.0042f;  ///< No triangle has a larger circumscribed circle.
-  float max_normal_angle_rad = 1.75f;  ///< Between the normals at the ends of an edge.
-  float max_slope = 0.6f;  ///< Sine of the angle between an edge and the plane across the mean of its ends' normals,
-  float slope_margin = 0.15f;   ///< or more by this than half the normals' angle explains.
-  float max_bridge_m = 0.007f;  ///< Longest diagonal in the filling of a small loop.
-  size_t least_part = 12;   ///< Parts of fewer triangles, joined to nothing by an edge, are held back until they grow.
-  int max_loop_edges = 16;  ///< Disagreements between stars leave loops of at most so many edges; longer ones are real.
+  float max_edge_m = 0.006f;  ///< R_max: the stars agree on no longer edge.
+  float max_circumradius_m = 0.0042f;
+  float max_normal_angle_rad = 2.1f;  ///< Between the normals at the ends of an edge.
+  /// Sine of the angle between an edge and the plane across the mean of its ends' normals.
+  float max_slope = 0.6f;
+  /// The slope may exceed what half the angle between the normals explains by this.
+  float slope_margin = 0.15f;
+  /// A loop of at most so many edges is closed if that takes no diagonal longer than max_bridge_m.
+  size_t max_loop_edges = 16;
+  float max_bridge_m = 0.007f;
+  /// Parts of fewer triangles, joined to nothing by an edge, are held back until they grow.
+  size_t least_part = 12;
 };
 
-/// Keeps the triangles up to date with the vertices: a triangle is in the mesh if and only if all three of its vertices
-/// have it in their Delaunay stars (a tangential Delaunay complex, after Boissonnat & Ghosh, DCG 2014,
-/// DOI 10.1007/s00454-013-9557-2). A star has at most one triangle on each side of an edge, so no edge can have more
-/// than two triangles, and the mesh depends on the vertices, not on the order in which they came. Where four nearly
-/// cocircular vertices make the stars disagree a small loop stays open: these loops, and no others, are closed by ear
-/// cutting.
+/// Keeps the triangles up to date with the vertices.
+///
+/// The stars agree on a triangle if all three of its vertices have it in their Delaunay stars (a tangential Delaunay
+/// complex, after Boissonnat & Ghosh, DCG 2014, DOI 10.1007/s00454-013-9557-2). A star has at most one triangle on each
+/// side of an edge, so no edge can have more than two, and what is agreed depends on where the vertices are, not on the
+/// order in which they came. Where stars disagree (four nearly cocircular vertices, a sharp ridge) a small loop stays
+/// open; loops that can be closed within max_bridge_m are closed. Each vertex of the mesh has one fan of triangles: of
+/// fans that meet in one vertex only the largest is shown. What is held back comes back as soon as something changes
+/// beside it.
 class StarTriangulation {
  public:
-  explicit StarTriangulation(const TriangulationSettings& settings) : settings_(settings) {}
+  explicit StarTriangulation(const TriangulationSettings& settings);
 
   /// True if an edge between the two is allowed: near enough, same side, same sheet. Symmetric.
   bool MayJoin(const Vertex& a, const Vertex& b) const;
 
   /// Makes the stars of `due` anew and brings the triangles in line with them.
   ///
-  /// @param due  Ascending numbers of real vertices that are new, have moved, or have such or a removed vertex within
-  /// R_max.
+  /// @param due  Ascending numbers of the real vertices that are new or have moved, and of those within R_max of one.
   void Update(std::span<const uint32_t> due, VertexStore& vertices);
-
-  /// Takes all triangles of a vertex out, before it is removed.
-  void Detach(uint32_t id);
 
   const MeshTopology& topology() const { return topology_; }
   std::vector<uint32_t> TakeChangedSlots() { return topology_.TakeChangedSlots(); }
 
  private:
-  static constexpr int32_t kAgreed =
-      -1;  // Group of the triangles that the stars agree on; fillings have numbers from 0.
+  // Group of the triangles that the stars agree on; fillings have numbers from 0.
+  static constexpr int32_t kAgreed = -1;
 
   bool MayBridge(const Vertex& a, const Vertex& b) const;
   void MakeStar(uint32_t id, VertexStore& vertices);
@@ -60,24 +63,23 @@ class StarTriangulation {
   void RemoveFillingsAt(uint32_t id);
   void RemoveFilling(int32_t group);
   void RemoveTriangle(uint32_t slot);
-  bool FindLoop(uint32_t start, uint32_t second, const VertexStore& vertices, std::vector<uint32_t>& loop) const;
-  uint32_t FindLoopNext(uint32_t from, uint32_t at, const VertexStore& vertices,
-                        std::vector<uint32_t>& successors) const;
   void InsertTriangle(const MeshTopology::Triangle& t);
   void ReturnHeldBack(const VertexStore& vertices);
-  void HoldBackSmallParts();
+  void HoldBackLesserFans();
+  void HoldBackIslands();
   void HoldBack(const std::vector<uint32_t>& slots);
   void FillLoops(const VertexStore& vertices);
   void FillLoopsAt(uint32_t id, const VertexStore& vertices);
   void FillLoop(std::span<const uint32_t> loop, const VertexStore& vertices);
 
   TriangulationSettings settings_;
+  float least_normal_cosine_;
   MeshTopology topology_;
   std::vector<std::vector<uint32_t>> fillings_;  // Slots of the triangles of each filling.
   std::vector<int32_t> free_fillings_;
   std::vector<MeshTopology::Triangle> held_back_;
-  std::vector<uint32_t> touched_in_update_;
-  std::vector<uint32_t> touched_;  // Vertices of triangles that came or went in this update.
+  std::vector<uint32_t> touched_;            // Vertices of triangles that came or went since the last look at them,
+  std::vector<uint32_t> touched_in_update_;  // and in the whole update.
   std::vector<StarCandidate> candidates_;
   StarScratch scratch_;
 };

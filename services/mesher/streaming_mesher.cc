@@ -103,12 +103,16 @@ void StreamingMesher::Refine(uint32_t id, const Measurement& m) {
   v.information += 1.0f / (m.sigma_m * m.sigma_m);
   v.measurements = std::min(v.measurements + 1, 0xffff);
   v.last_scan = static_cast<uint16_t>(scan_.scan);
-  if (v.state == Vertex::State::kReal) v.best_cosine = std::max(v.best_cosine, v.normal_W.dot(m.view_W));
+  if (v.state != Vertex::State::kReal) return;
+  v.best_cosine = std::max(v.best_cosine, v.normal_W.dot(m.view_W));
+  MarkForPublishing(id);
 }
 
 void StreamingMesher::MarkForFit(uint32_t id) {
-  if (vertices_[id].fit_due) return;
-  vertices_[id].fit_due = true;
+  Vertex& v = vertices_[id];
+  ++v.fresh;
+  if (v.fit_due || static_cast<float>(v.fresh) < settings_.refit_share * static_cast<float>(v.support)) return;
+  v.fit_due = true;
   fit_due_.push_back(id);
 }
 
@@ -143,6 +147,7 @@ void StreamingMesher::FitDueVertices() {
   std::sort(fit_due_.begin(), fit_due_.end());
   for (uint32_t id : fit_due_) {
     vertices_[id].fit_due = false;
+    vertices_[id].fresh = 0;
     if (vertices_[id].state == Vertex::State::kReal) FitReal(id);
     if (vertices_[id].state == Vertex::State::kPending) FitPending(id);
   }
@@ -156,7 +161,7 @@ void StreamingMesher::FitPending(uint32_t id) {
                        samples_);
   const auto guess = EstimateNormal(samples_, v.anchor_W, v.view_sum_W, settings_.fit);
   if (!guess) return;
-  const auto fit = FitSurface(samples_, v.anchor_W, *guess, settings_.fit);
+  const auto fit = FitSurface(samples_, v.anchor_W, v.anchor_W, *guess, settings_.fit);
   const float view_length = v.view_sum_W.norm();
   if (!fit || fit->normal_W.dot(v.view_sum_W) < std::cos(settings_.max_incidence_rad) * view_length) return;
   if (!HasRoomFor(id, *fit)) {
@@ -164,6 +169,7 @@ void StreamingMesher::FitPending(uint32_t id) {
     return;
   }
   v.state = Vertex::State::kReal;
+  v.support = fit->measurements;
   v.normal_W = fit->normal_W;
   v.best_cosine = fit->normal_W.dot(v.view_sum_W) / view_length;
   vertices_.Move(id, fit->p_W);
@@ -196,8 +202,9 @@ void StreamingMesher::FitReal(uint32_t id) {
   samples_.clear();
   measurements_.Gather(v.anchor_W, settings_.fit.radius_m, v.normal_W, settings_.sample_cosine, samples_);
   MarkForPublishing(id);
-  const auto fit = FitSurface(samples_, v.anchor_W, v.normal_W, settings_.fit);
+  const auto fit = FitSurface(samples_, v.anchor_W, v.p_W, v.normal_W, settings_.fit);
   if (!fit) return;
+  v.support = fit->measurements;
   v.normal_W = fit->normal_W;
   vertices_.Move(id, fit->p_W);
   const bool moved = (v.p_W - v.star_p_W).norm() > settings_.star_moved_m;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "common/geometry/mesh_delta.h"
@@ -14,19 +13,26 @@
 namespace nbs {
 
 struct StreamingMesherSettings {
-  float spacing_m = 0.0023f;  ///< R_d: a measurement nearer to a vertex than this refines it, others found new ones.
-                              ///< Mean edge: about 1.35 R_d.
-  float cell_m = 0.002f;      ///< Of the measurement map.
-  float least_spacing_share = 0.65f;  ///< Vertices are never nearer to each other than this share of R_d.
-  float max_incidence_rad =
-      1.40f;  ///< A surface seen only more obliquely than this is no surface, but points in the air at a depth edge.
-  float least_view_cosine =
-      0.25f;  ///< A measurement refines only vertices whose normal makes at most this angle's cosine with its beam.
-  float founding_cosine = 0.5f;
+  /// R_d: a measurement nearer to a vertex than this refines it, others found new ones. The mean edge comes to
+  /// about 1.35 R_d.
+  float spacing_m = 0.0023f;
+  /// Vertices of one sheet are never founded nearer to each other than this share of R_d.
+  float least_spacing_share = 0.65f;
+  float cell_m = 0.002f;  ///< Of the measurement map.
+  /// A measurement refines only vertices whose normal makes an angle with its beam that has at least this cosine.
+  float least_view_cosine = 0.25f;
+  /// A vertex is founded on samples seen within the angle of this cosine from its own view: less than twice the
+  /// complement of the largest incidence, so that both sides of a thin plate never count together.
+  float founding_cosine = 0.8f;
+  /// A vertex is refined by samples whose views make an angle with its normal that has at least this cosine.
   float sample_cosine = 0.15f;
-  float moved_noticeably_m = 0.00005f;  ///< Published before the end of the scan only when moved further than this.
-  float star_moved_m = 0.0001f;         ///< Stars are made anew when a vertex moved further than this,
-  float star_turned_rad = 0.05f;        ///< or turned further than this.
+  /// A surface seen only more obliquely than this is no surface, but points in the air at a depth edge.
+  float max_incidence_rad = 1.40f;
+  float refit_share = 0.1f;       ///< A surface is fitted again when this share of its support has come near since.
+  float star_moved_m = 0.0001f;   ///< Stars are made anew when a vertex moved further than this,
+  float star_turned_rad = 0.05f;  ///< or turned further than this.
+  float moved_noticeably_m =
+      0.00005f;  ///< Before the end of the scan vertices are published anew only when moved further.
   SurfaceFitSettings fit;
   TriangulationSettings triangulation;
 };
@@ -39,7 +45,7 @@ struct MesherCounts {
 
 /// Folds laser stripes into one growing triangle mesh (after Bodenmüller, "Streaming Surface Reconstruction from Real
 /// Time 3D Measurements", TU München 2009): density limit, normals, vertex selection, localised triangulation. What is
-/// not seen stays open: no edge is longer than R_max.
+/// not seen stays open.
 ///
 /// Measurements are summed up in a MeasurementMap. A measurement that has no vertex within R_d founds a pending one;
 /// vertices with enough support get a fitted surface, move onto it and become real; StarTriangulation joins them. Fits

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace nbs {
@@ -27,64 +29,91 @@ Eigen::Matrix3f MakeFrame(const Eigen::Vector3f& normal_W) {
   return R;
 }
 
-float EvaluateQuadric(const Vector6& q, float x, float y) {
-  return q[0] * x * x + q[1] * x * y + q[2] * y * y + q[3] * x + q[4] * y + q[5];
-}
+/// The surface z = q0 x^2 + q1 xy + q2 y^2 + q3 x + q4 y + q5 over a frame at the anchor.
+struct Quadric {
+  Eigen::Matrix3f R_WL;
+  Vector6 q;
 
-/// Sums of one weighted pass over the samples.
+  float CalcHeight(float x, float y) const { return (q[0] * x + q[1] * y + q[3]) * x + (q[2] * y + q[4]) * y + q[5]; }
+  Eigen::Vector3f CalcNormal_L() const { return Eigen::Vector3f(-q[3], -q[4], 1.0f).normalized(); }
+};
+
+/// Sums over the samples of one weighted pass. The normal matrix of a quadric holds only the 15 moments of x and y up
+/// to the fourth order.
 struct Pass {
-  Matrix6 normal_matrix = Matrix6::Zero();  // Lower triangle.
+  std::array<float, 15> m{};  // 1 x y xx xy yy xxx xxy xyy yyy xxxx xxxy xxyy xyyy yyyy
   Vector6 right_side = Vector6::Zero();
-  float weight = 0.0f;
   float squared_residual = 0.0f;
-  Eigen::Vector2f first = Eigen::Vector2f::Zero();
-  Eigen::Matrix2f second = Eigen::Matrix2f::Zero();
   int measurements = 0;
 
   void Add(const Eigen::Vector3f& p, float w, float residual, int count) {
-    Vector6 row;
-    row << p.x() * p.x(), p.x() * p.y(), p.y() * p.y(), p.x(), p.y(), 1.0f;
-    normal_matrix.selfadjointView<Eigen::Lower>().rankUpdate(row, w);
-    right_side += (w * p.z()) * row;
-    weight += w;
+    const float x = p.x(), y = p.y(), wx = w * x, wy = w * y, wxx = wx * x, wxy = wx * y, wyy = wy * y;
+    const float xx = x * x, xy = x * y, yy = y * y, wz = w * p.z();
+    m[0] += w;
+    m[1] += wx;
+    m[2] += wy;
+    m[3] += wxx;
+    m[4] += wxy;
+    m[5] += wyy;
+    m[6] += wxx * x;
+    m[7] += wxx * y;
+    m[8] += wyy * x;
+    m[9] += wyy * y;
+    m[10] += wxx * xx;
+    m[11] += wxx * xy;
+    m[12] += wxx * yy;
+    m[13] += wyy * xy;
+    m[14] += wyy * yy;
+    right_side[0] += wz * xx;
+    right_side[1] += wz * xy;
+    right_side[2] += wz * yy;
+    right_side[3] += wz * x;
+    right_side[4] += wz * y;
+    right_side[5] += wz;
     squared_residual += w * residual * residual;
-    first += w * p.head<2>();
-    second += w * p.head<2>() * p.head<2>().transpose();
     measurements += count;
   }
 
   /// Smallest standard deviation of the samples across the surface, millimetres.
   float CalcSpread() const {
-    const Eigen::Vector2f mean = first / weight;
-    const Eigen::Matrix2f C = second / weight - mean * mean.transpose();
-    const float half_trace = 0.5f * C.trace();
-    const float root = std::sqrt(std::max(0.0f, half_trace * half_trace - C.determinant()));
+    const float mean_x = m[1] / m[0], mean_y = m[2] / m[0];
+    const float xx = m[3] / m[0] - mean_x * mean_x, xy = m[4] / m[0] - mean_x * mean_y,
+                yy = m[5] / m[0] - mean_y * mean_y;
+    const float half_trace = 0.5f * (xx + yy);
+    const float root = std::sqrt(std::max(0.0f, half_trace * half_trace - (xx * yy - xy * xy)));
     return std::sqrt(std::max(0.0f, half_trace - root));
+  }
+
+  Vector6 Solve(float max_curvature_per_m) const {
+    Matrix6 A;
+    A << m[10], m[11], m[12], m[6], m[7], m[3],  //
+        m[11], m[12], m[13], m[7], m[8], m[4],   //
+        m[12], m[13], m[14], m[8], m[9], m[5],   //
+        m[6], m[7], m[8], m[3], m[4], m[1],      //
+        m[7], m[8], m[9], m[4], m[5], m[2],      //
+        m[3], m[4], m[5], m[1], m[2], m[0];
+    const float prior = 0.5f * max_curvature_per_m / kMillimetre;
+    for (int i = 0; i < 3; ++i) A(i, i) += 1.0f / (prior * prior);
+    for (int i = 0; i < 6; ++i) A(i, i) += 1e-4f;
+    return A.llt().solve(right_side);
   }
 };
 
-Pass MakePass(std::span<const Sample> samples, const Eigen::Vector3f& anchor_W, const Eigen::Matrix3f& R_WL,
-              const Vector6& q, const SurfaceFitSettings& settings) {
+Pass MakePass(std::span<const Sample> samples, const Eigen::Vector3f& anchor_W, const Quadric& surface,
+              const SurfaceFitSettings& settings) {
   const float squared_radius = settings.radius_m * settings.radius_m * kMillimetre * kMillimetre;
   const float squared_tolerance = settings.height_tolerance_m * settings.height_tolerance_m * kMillimetre * kMillimetre;
+  const Eigen::Matrix3f to_L = kMillimetre * surface.R_WL.transpose();
   Pass pass;
   for (const Sample& s : samples) {
-    if (s.view_sum_W.dot(R_WL.col(2)) <= 0.0f) continue;
-    const Eigen::Vector3f p = kMillimetre * (R_WL.transpose() * (s.p_W - anchor_W));
-    const float residual = p.z() - EvaluateQuadric(q, p.x(), p.y());
-    const float w =
-        s.weight * CalcKernel(p.squaredNorm(), squared_radius) * CalcKernel(residual * residual, squared_tolerance);
+    const Eigen::Vector3f p = to_L * (s.p_W - anchor_W);
+    const float near = CalcKernel(p.squaredNorm(), squared_radius);
+    if (near <= 0.0f || s.view_sum_W.dot(surface.R_WL.col(2)) <= 0.0f) continue;
+    const float residual = p.z() - surface.CalcHeight(p.x(), p.y());
+    const float w = s.weight * near * CalcKernel(residual * residual, squared_tolerance);
     if (w > 0.0f) pass.Add(p, w, residual, s.measurements);
   }
   return pass;
-}
-
-Vector6 SolvePass(const Pass& pass, const SurfaceFitSettings& settings) {
-  Matrix6 A = pass.normal_matrix.selfadjointView<Eigen::Lower>();
-  const float prior = 0.5f * settings.max_curvature_per_m / kMillimetre;
-  for (int i = 0; i < 3; ++i) A(i, i) += 1.0f / (prior * prior);
-  for (int i = 0; i < 6; ++i) A(i, i) += 1e-4f;
-  return A.ldlt().solve(pass.right_side);
 }
 
 }  // namespace
@@ -111,40 +140,39 @@ std::optional<Eigen::Vector3f> EstimateNormal(std::span<const Sample> samples, c
   const Eigen::Matrix3f C = second / weight - mean * mean.transpose();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
   solver.computeDirect(C);
-  if (!(solver.eigenvalues()[1] > 0.25f * std::pow(kMillimetre * settings.min_spread_m, 2.0f))) return std::nullopt;
+  const float least_spread = 0.5f * kMillimetre * settings.min_spread_m;
+  if (!(solver.eigenvalues()[1] > least_spread * least_spread)) return std::nullopt;
   const Eigen::Vector3f normal = solver.eigenvectors().col(0).normalized();
   return normal.dot(side_W) < 0.0f ? Eigen::Vector3f(-normal) : normal;
 }
 
 std::optional<SurfaceFit> FitSurface(std::span<const Sample> samples, const Eigen::Vector3f& anchor_W,
-                                     const Eigen::Vector3f& normal_W, const SurfaceFitSettings& settings) {
-  Eigen::Matrix3f R_WL = MakeFrame(normal_W);
-  Vector6 q = Vector6::Zero();
+                                     const Eigen::Vector3f& p_W, const Eigen::Vector3f& normal_W,
+                                     const SurfaceFitSettings& settings) {
+  Quadric surface{MakeFrame(normal_W), Vector6::Zero()};
+  surface.q[5] = kMillimetre * normal_W.dot(p_W - anchor_W);
   Pass pass;
-  for (int iteration = 0; iteration < 3; ++iteration) {
-    pass = MakePass(samples, anchor_W, R_WL, q, settings);
+  constexpr int kMostPasses = 4;
+  for (int i = 0; i < kMostPasses; ++i) {
+    pass = MakePass(samples, anchor_W, surface, settings);
     if (pass.measurements < settings.min_measurements || pass.CalcSpread() < kMillimetre * settings.min_spread_m)
       return std::nullopt;
-    q = SolvePass(pass, settings);
-    const Eigen::Vector3f normal_L = Eigen::Vector3f(-q[3], -q[4], 1.0f).normalized();
-    constexpr float kTurnedFar =
-        0.94f;  // 20 degrees: the frame is too oblique for "height" to mean distance; turn it and start over.
-    if (iteration == 2 || normal_L.z() > kTurnedFar) {
-      if (iteration > 0) break;
-      continue;
-    }
-    R_WL = MakeFrame((R_WL * normal_L).normalized());
-    q = Vector6::Zero();
-    q[5] = 0.0f;
+    const Vector6 before = surface.q;
+    surface.q = pass.Solve(settings.max_curvature_per_m);
+    const Eigen::Vector3f normal_L = surface.CalcNormal_L();
+    // A frame that the surface has turned away from is a bad measure of height: turn it after. Done when neither frame
+    // nor weights would change much.
+    constexpr float kTurned = 0.97f, kMoved_mm = 0.3f;
+    const bool turned = normal_L.z() < kTurned;
+    if (!turned && std::abs(surface.q[5] - before[5]) < kMoved_mm) break;
+    if (!turned || i + 1 == kMostPasses) continue;
+    surface.R_WL = MakeFrame((surface.R_WL * normal_L).normalized());
+    surface.q << 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, surface.q[5] * normal_L.z();
   }
-  SurfaceFit fit;
-  fit.normal_W = (R_WL * Eigen::Vector3f(-q[3], -q[4], 1.0f)).normalized();
-  fit.p_W = anchor_W + R_WL.col(2) * (q[5] / kMillimetre);
-  fit.residual_m = std::sqrt(pass.squared_residual / pass.weight) / kMillimetre;
-  fit.measurements = pass.measurements;
-  const float offset = std::abs(q[5]) / kMillimetre;
-  if (!std::isfinite(offset) || offset > settings.height_tolerance_m) return std::nullopt;
-  return fit;
+  const float height = surface.q[5] / kMillimetre;
+  if (!(std::abs(height) <= settings.height_tolerance_m)) return std::nullopt;
+  return SurfaceFit{anchor_W + surface.R_WL.col(2) * height, (surface.R_WL * surface.CalcNormal_L()).normalized(),
+                    std::sqrt(pass.squared_residual / pass.m[0]) / kMillimetre, pass.measurements};
 }
 
 }  // namespace nbs

@@ -37,9 +37,12 @@ std::optional<Eigen::Vector3f> EstimateNormal(std::span<const Sample> samples, c
 ///
 /// @param samples   Seen from the side of the normal.
 /// @param anchor_W  Metres; the vertex keeps its place across the normal.
+/// @param p_W       Where the surface is thought to pass along the normal: the vertex so far, or the anchor.
 /// @param normal_W  Unit; a first guess, good to some 30 degrees.
-/// @returns Nothing if the samples are too few, all in a line, or give no surface.
+/// @returns Nothing if the samples are too few, all in a line, or the surface does not pass the anchor within the
+/// tolerance.
 std::optional<SurfaceFit> FitSurface(std::span<const Sample> samples, const Eigen::Vector3f& anchor_W,
-                                     const Eigen::Vector3f& normal_W, const SurfaceFitSettings& settings);
+                                     const Eigen::Vector3f& p_W, const Eigen::Vector3f& normal_W,
+                                     const SurfaceFitSettings& settings);
 
 }  // namespace nbs

@@ -30,6 +30,8 @@ struct Vertex {
   float information = 0.0f;   ///< Sum of 1/sigma^2 of its own measurements, 1/m^2.
   float best_cosine = -1.0f;  ///< Of the incidence.
   int32_t measurements = 0;   ///< Its own: those to which it was the nearest vertex.
+  int32_t support = 0;        ///< Measurements that carried the last fit,
+  int32_t fresh = 0;          ///< and those that came near since.
   uint16_t first_scan = 0;
   uint16_t last_scan = 0;
   int32_t next_in_cell = BrickGrid::kNone;

@@ -120,6 +120,50 @@ TEST(StreamingMesher, FacingWallsOfANarrowGapAreNotBridged) {
   }
 }
 
+TEST(StreamingMesher, FullyScannedCubeIsWatertight) {
+  Bench bench;
+  auto sweeps = MakeSweepsAround(0.05, 0.3, 8, 0.7);
+  bench.ScanAll(MakeSolidBox({0, 0, 0}, {0.04, 0.04, 0.04}), sweeps);
+  EXPECT_GT(bench.mesher.CalcScanFigures().completeness, 0.999);
+}
+
+TEST(StreamingMesher, SlotWiderThanTheLongestEdgeStaysOpen) {
+  Bench bench;
+  const Solid halves =
+      MakeUnion(MakeSolidBox({0.05, 0, -0.2}, {0.045, 0.08, 0.2}), MakeSolidBox({-0.05, 0, -0.2}, {0.045, 0.08, 0.2}));
+  bench.Scan(halves, MakeDownSweep(0, 0.12, 0.3));  // A slot 10 mm wide, too deep to see its ground.
+  EXPECT_EQ(CalcLoopLengths(bench.mesher.topology().triangles()).size(), 2u);
+}
+
+TEST(StreamingMesher, StepWithAnUnseenWallIsNotBridged) {
+  Bench bench;
+  const Solid step = MakeUnion(MakeSolidBox({0.05, 0, -0.02}, {0.05, 0.08, 0.02}),
+                               MakeSolidBox({-0.05, 0, -0.025}, {0.05, 0.08, 0.02}));
+  bench.Scan(step, MakeDownSweep(0, 0.12, 0.3));
+  for (const auto& t : bench.mesher.topology().triangles()) {
+    if (MeshReplica::IsEmpty(t)) continue;
+    int high = 0;
+    for (uint32_t id : t) high += bench.mesher.vertices()[id].p_W.z() > -0.0025f;
+    EXPECT_TRUE(high == 0 || high == 3);
+  }
+}
+
+TEST(StreamingMesher, VerticesKeepTheirDistanceInHeavyNoise) {
+  Profiler noisy;
+  noisy.sigma_per_m = 0.008;  // 0.75 mm.
+  Bench bench(noisy);
+  bench.Scan(MakeSquareSlab(), MakeDownSweep(0, 0.12, 0.3));
+  const VertexStore& vertices = bench.mesher.vertices();
+  for (uint32_t a = 0; a < vertices.size(); ++a) {
+    if (vertices[a].state != Vertex::State::kReal) continue;
+    vertices.ForEachNear(vertices[a].p_W, 0.0013f, [&](uint32_t b) {
+      if (b != a && vertices[b].state == Vertex::State::kReal) {
+        EXPECT_GT((vertices[a].p_W - vertices[b].p_W).norm(), 0.0013f);
+      }
+    });
+  }
+}
+
 TEST(StreamingMesher, SecondScanOffByAMillimetreMergesIntoOneSheet) {
   Bench bench;
   bench.Scan(MakeSquareSlab(), MakeDownSweep(0, 0.12, 0.3));
@@ -172,6 +216,7 @@ TEST(StreamingMesher, MeshIsAManifoldAfterEachStripeAndTheReplicaEqualsIt) {
       mesher.AddStripe(stripe);
       replica.Apply(mesher.TakeDelta());
       ASSERT_EQ(CountMesh(mesher).doubled_edges, 0);
+      ASSERT_EQ(CountMesh(mesher).bow_ties, 0);
       ASSERT_EQ(replica.triangles(), mesher.topology().triangles());
     }
     for (const MeshVertex& v : replica.vertices()) {
