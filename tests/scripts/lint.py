@@ -9,6 +9,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -51,17 +52,22 @@ def lint(folder, path):
     return complaints or (run.stderr if run.returncode else "")
 
 
-def find_complaints(build, only=()):
+def lint_all(build, only=()):
+    """Prints complaints as they come; True if there were none."""
     folder = build / "lint"
     (folder / "clean").mkdir(parents=True, exist_ok=True)
-    files = write_database(build, folder)
-    if only:
-        files = [file for file in files if file.relative_to(SOURCE) in only]
+    files = [file for file in write_database(build, folder) if not only or file.relative_to(SOURCE) in only]
+    is_clean = True
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        return [complaints for complaints in pool.map(lambda file: lint(folder, file), files) if complaints]
+        for complaints in pool.map(lambda file: lint(folder, file), files):
+            if complaints:
+                print(complaints, flush=True)
+                is_clean = False
+    print(f"lint: {len(files)} sources {'are clean' if is_clean else 'checked'}")
+    return is_clean
 
 
 if __name__ == "__main__":
-    found = find_complaints(pathlib.Path(sys.argv[1]), {pathlib.Path(name) for name in sys.argv[2:]})
-    print("\n".join(found))
-    sys.exit(1 if found else 0)
+    if not shutil.which("clang-tidy"):
+        sys.exit("lint: clang-tidy is missing: run scripts/setup")
+    sys.exit(0 if lint_all(pathlib.Path(sys.argv[1]), {pathlib.Path(name) for name in sys.argv[2:]}) else 1)
