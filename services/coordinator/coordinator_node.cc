@@ -29,7 +29,7 @@ void CoordinatorNode::Handle(const Message& message, Outbox& out) {
 }
 
 void CoordinatorNode::Take(RunStep step, Outbox& out) {
-  state_ = std::move(step.state);
+  state_ = step.state;
   out.insert(out.end(), std::make_move_iterator(step.commands.begin()), std::make_move_iterator(step.commands.end()));
 }
 

@@ -91,9 +91,8 @@ RunStep Advance(const RunSettings& settings, const RunLogicState& state, const P
   if (plan.mode != state.mode) throw std::logic_error("coordinator: the plan is of another mode than asked for");
   RunLogicState next = state;
   next.utime_us = std::max(next.utime_us, plan.utime_us);
-  if (plan.found) return Execute(std::move(next), plan);
-  if (state.mode == PlanMode::kBoundary && settings.holes)
-    return AskForPlan(std::move(next), state.scan, PlanMode::kHole);
+  if (plan.found) return Execute(next, plan);
+  if (state.mode == PlanMode::kBoundary && settings.holes) return AskForPlan(next, state.scan, PlanMode::kHole);
   return GiveUp(next, plan);
 }
 
@@ -101,7 +100,7 @@ RunStep Advance(const RunSettings& /*settings*/, const RunLogicState& state, con
   CheckAwaited(state, Awaiting::kExecution, execution.scan, "an execution");
   RunLogicState next = state;
   next.utime_us = std::max(next.utime_us, execution.utime_us);
-  if (!execution.done) return Finish(std::move(next), state.scan, true, "refused", execution.refusal);
+  if (!execution.done) return Finish(next, state.scan, true, "refused", execution.refusal);
   next.awaiting = Awaiting::kMeshScan;
   return {next, {}};
 }
@@ -116,16 +115,16 @@ RunStep Advance(const RunSettings& settings, const RunLogicState& state, const M
   next.last_scan = mesh;
   const int32_t scans = state.scan + 1;
   if (state.last_scan && IsComplete(settings, *state.last_scan, mesh)) {
-    return Finish(std::move(next), scans, false, "completeness_reached",
+    return Finish(next, scans, false, "completeness_reached",
                   fmt::format("Mesh completeness {:.4f} of {:.4f} wanted.", mesh.completeness, settings.completeness));
   }
   if (scans >= settings.max_scans) {
-    return Finish(std::move(next), scans, false, "scan_limit",
+    return Finish(next, scans, false, "scan_limit",
                   fmt::format("{} scans done; mesh completeness {:.4f} of {:.4f} wanted.", scans, mesh.completeness,
                               settings.completeness));
   }
   const PlanMode mode = ChooseMode(settings, next);
-  return AskForPlan(std::move(next), scans, mode);
+  return AskForPlan(next, scans, mode);
 }
 
 }  // namespace nbs
