@@ -46,6 +46,25 @@ std::vector<uint8_t> FindNear(const GridShape& shape, const std::vector<uint16_t
   return near;
 }
 
+/// A cell is known to be free up to this p.
+constexpr double kFreeProbability = 0.3;
+
+/// The value of every log-odds, before it is asked where the cell lies.
+std::vector<uint16_t> MakeTable(GainRule rule) {
+  const std::span<const uint16_t, 65536> entropy = EntropyTable();
+  const int16_t free_log_odds = CalcLogOdds(kFreeProbability);
+  std::vector<uint16_t> table(entropy.begin(), entropy.end());
+  for (size_t i = 0; i < table.size(); ++i) {
+    const auto log_odds = static_cast<int16_t>(static_cast<uint16_t>(i));
+    if (IsOccupied(log_odds)) {
+      table[i] = GainMap::kWall;
+    } else if (rule == GainRule::kUnknownCount) {
+      table[i] = log_odds == kUnobserved || log_odds > free_log_odds ? GainMap::kGoal : 0;
+    }
+  }
+  return table;
+}
+
 }  // namespace
 
 GainMap::GainMap(const VoxelGrid& grid, GainRule rule, double reach_m)
@@ -53,15 +72,14 @@ GainMap::GainMap(const VoxelGrid& grid, GainRule rule, double reach_m)
   const double radius_cells = reach_m / shape_.resolution_m;
   if (!(radius_cells >= 0.0 && radius_cells <= 60.0))
     throw std::invalid_argument("GainMap: a reach of " + std::to_string(reach_m) + " m");
-  const std::span<const uint16_t, 65536> entropy = EntropyTable();
+  if (rule == GainRule::kUnknownCount) unit_ = EntropyTable()[static_cast<uint16_t>(kUnobserved)];
+  const std::vector<uint16_t> table = MakeTable(rule);
   bool has_wall = false;
   for (size_t i = 0; i < values_.size(); ++i) {
-    const int16_t log_odds = grid.cells()[i];
-    const bool is_wall = IsOccupied(log_odds);
-    values_[i] = is_wall ? kWall : entropy[static_cast<uint16_t>(log_odds)];
-    has_wall = has_wall || is_wall;
+    values_[i] = table[static_cast<uint16_t>(grid.cells()[i])];
+    has_wall |= values_[i] == kWall;
   }
-  if (rule == GainRule::kSum || !has_wall) return;
+  if (rule != GainRule::kNearSurface || !has_wall) return;
   const std::vector<uint8_t> near = FindNear(shape_, values_, radius_cells);
   for (size_t i = 0; i < values_.size(); ++i) {
     if (near[i] == 0) values_[i] = 0;

@@ -5,14 +5,9 @@
 #include <vector>
 
 #include "common/mapping/voxel_grid.h"
+#include "services/planner/gain_rule.h"
 
 namespace nbs {
-
-/// What counts as information.
-enum class GainRule : uint8_t {
-  kSum,          ///< The entropy of every cell (eq. 2 of the paper).
-  kNearSurface,  ///< The entropy of cells near the surface that is known so far: where it must go on.
-};
 
 /// What a beam gains by passing through each cell of a voxel space, made once a round for all candidates.
 ///
@@ -21,21 +16,29 @@ enum class GainRule : uint8_t {
 /// goes on. kNearSurface counts only cells within `reach_m` of an occupied one (the proximity idea of Vasquez-Gomez et
 /// al. and Delmerico et al., "A comparison of volumetric information gain metrics for active 3D object reconstruction",
 /// Autonomous Robots 42, 2018, DOI 10.1007/s10514-017-9634-0); in a space without occupied cells it is kSum.
+///
+/// kMean and kPerSecond weigh the gain of kSum, so their map is the same. For kUnknownCount a cell is free up to p =
+/// 0.3 (as for the distance field), occupied from 0.95, and unknown between.
 class GainMap {
  public:
   /// Value of an occupied cell: beams end before it.
   static constexpr uint16_t kWall = 0xffff;
+  /// Value of an unknown cell under kUnknownCount: beams end in it and gain 1. Above every entropy.
+  static constexpr uint16_t kGoal = 0xfffe;
 
   /// @param reach_m  Metres between the centres of two cells, >= 0; at most 60 cells.
   /// @throws std::invalid_argument if reach_m is out of range.
   explicit GainMap(const VoxelGrid& grid, GainRule rule = GainRule::kSum, double reach_m = 0.025);
 
   const GridShape& shape() const { return shape_; }
-  /// By cell index: gain in 1/65536 nat, or kWall.
+  /// By cell index: gain in unit() / 65536 nat, kWall or kGoal.
   std::span<const uint16_t> values() const { return values_; }
+  /// By what a sum over values must be multiplied: ln 2 (65536 times) for kUnknownCount, else 1.
+  int64_t unit() const { return unit_; }
 
  private:
   GridShape shape_;
+  int64_t unit_ = 1;
   std::vector<uint16_t> values_;
 };
 

@@ -11,12 +11,15 @@
 namespace nbs {
 namespace {
 
-/// Gain along one ray in 1/65536 nat, up to the first occupied cell (the inner sum of eq. 2).
+/// Gain along one ray in units of the map, up to the first occupied cell (the inner sum of eq. 2) or the first goal.
 uint32_t SumAlong(const uint16_t* values, const RayWalk& ray) {
   uint32_t sum = 0;
   WalkRay(ray, [&](int64_t index) {
     const uint16_t value = values[index];
-    if (value == GainMap::kWall) return false;
+    if (value >= GainMap::kGoal) {
+      sum += value == GainMap::kGoal ? 1 : 0;
+      return false;
+    }
     sum += value;
     return true;
   });
@@ -46,6 +49,10 @@ int InformationGain::CountStripes(const ScanPath& path) const {
   return static_cast<int>(std::floor(path.length_m() / stripe_spacing_m_ + 1e-6)) + 1;
 }
 
+int64_t InformationGain::CountBeams(const ScanPath& path) const {
+  return CountStripes(path) * static_cast<int64_t>(beams_S_.size());
+}
+
 int64_t InformationGain::CalcStripe(const GainMap& map, const Pose& X_WS, int beam_step) const {
   const uint16_t* values = map.values().data();
   const int beams = static_cast<int>(beams_S_.size());
@@ -53,7 +60,7 @@ int64_t InformationGain::CalcStripe(const GainMap& map, const Pose& X_WS, int be
   for (int i = CalcFirst(beams, beam_step); i < beams; i += beam_step) {
     sum += SumAlong(values, MakeRayWalk(map.shape(), X_WS.translation(), X_WS * beams_S_[i]));
   }
-  return sum;
+  return sum * map.unit();
 }
 
 int64_t InformationGain::Calc(const GainMap& map, const ScanPath& path, GainSampling sampling) const {

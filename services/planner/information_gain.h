@@ -37,6 +37,9 @@ class InformationGain {
   /// Stripes that the profiler takes along a path: one every scan_speed / rate metres from the start on, at least one.
   int CountStripes(const ScanPath& path) const;
 
+  /// Beams of all those stripes.
+  int64_t CountBeams(const ScanPath& path) const;
+
   /// Gain of a path.
   ///
   /// @throws std::invalid_argument if a step of the sampling is not positive.

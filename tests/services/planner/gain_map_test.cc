@@ -56,6 +56,32 @@ TEST(GainMap, WithoutAnyWallNearSurfaceIsTheSum) {
   EXPECT_TRUE(std::ranges::equal(GainMap(grid, GainRule::kNearSurface).values(), GainMap(grid).values()));
 }
 
+TEST(GainMap, UnderTheUnknownCountCellsBetweenFreeAndOccupiedAreGoals) {
+  VoxelGrid grid = MakeGrid();
+  grid.cells()[1] = CalcLogOdds(0.29);
+  grid.cells()[2] = CalcLogOdds(0.31);
+  grid.cells()[3] = CalcLogOdds(0.94);
+  grid.cells()[4] = CalcLogOdds(0.951);
+  const GainMap map(grid, GainRule::kUnknownCount);
+  EXPECT_EQ(map.values()[0], GainMap::kGoal);
+  EXPECT_EQ(map.values()[1], 0);
+  EXPECT_EQ(map.values()[2], GainMap::kGoal);
+  EXPECT_EQ(map.values()[3], GainMap::kGoal);
+  EXPECT_EQ(map.values()[4], GainMap::kWall);
+}
+
+TEST(GainMap, MeanAndPerSecondWeighTheMapOfTheSum) {
+  VoxelGrid grid = MakeGrid();
+  grid.cells()[3] = -2000;
+  grid.cells()[4] = 8000;
+  for (const GainRule rule : {GainRule::kMean, GainRule::kPerSecond})
+    EXPECT_TRUE(std::ranges::equal(GainMap(grid, rule).values(), GainMap(grid).values()));
+}
+
+TEST(GainMap, NoEntropyIsTakenForAWallOrAGoal) {
+  EXPECT_LT(std::ranges::max(EntropyTable()), std::min(GainMap::kWall, GainMap::kGoal));
+}
+
 TEST(GainMap, AReachThatIsNegativeOrNotFiniteIsRefused) {
   const VoxelGrid grid = MakeGrid();
   EXPECT_THROW(GainMap(grid, GainRule::kNearSurface, -0.01), std::invalid_argument);

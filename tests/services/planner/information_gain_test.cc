@@ -162,6 +162,48 @@ TEST(InformationGain, NeverGrowsWhenACellGetsSurer) {
   }
 }
 
+/// Beams of a path that meet an unknown cell before an occupied one, written out.
+int64_t CountByDefinition(const Profiler& profiler, const VoxelGrid& grid, const ScanPath& path) {
+  int64_t count = 0;
+  const int stripes = static_cast<int>(path.length_m() / 0.002 + 1e-6) + 1;
+  for (int i = 0; i < stripes; ++i) {
+    const Pose X_WS = Interpolate(path.X_WS_start, path.X_WS_end, i * 0.002 / path.length_m());
+    for (int beam = 0; beam < profiler.points; ++beam) {
+      const Eigen::Vector3d beam_S = CalcBeamDirection_S(profiler, beam);
+      WalkRay(MakeRayWalk(grid.shape(), X_WS.translation(), X_WS * (beam_S * profiler.max_depth_m / beam_S.z())),
+              [&](int64_t index) {
+                const double p = CalcProbability(grid.cells()[index]);
+                if (p <= 0.3) return true;
+                if (p < 0.95) ++count;
+                return false;
+              });
+    }
+  }
+  return count;
+}
+
+TEST(InformationGain, UnderTheUnknownCountIsLn2PerBeamThatMeetsUnknownSpaceFirst) {
+  const Profiler profiler;
+  const InformationGain gain(profiler);
+  std::mt19937_64 engine(8);
+  VoxelGrid grid = MakeUnknownBox();
+  for (int16_t& cell : grid.cells()) {
+    const uint64_t draw = engine() % 100;
+    cell = draw == 0 ? kUnobserved : draw == 1 ? int16_t{1000} : draw == 2 ? int16_t{5000} : int16_t{-4000};
+  }
+  const ScanPath path = MakeRandomPath(engine);
+  const int64_t count = CountByDefinition(profiler, grid, path);
+  EXPECT_GT(count, 1000);
+  EXPECT_LT(count, gain.CountBeams(path));
+  EXPECT_NEAR(ToNats(gain.Calc(GainMap(grid, GainRule::kUnknownCount), path, kAllBeams)),
+              static_cast<double>(count) * std::numbers::ln2, 1e-5 * static_cast<double>(count));
+}
+
+TEST(InformationGain, CountsTheBeamsOfAllStripes) {
+  const ScanPath path = MakePath(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), 0.1);
+  EXPECT_EQ(InformationGain{Profiler{}}.CountBeams(path), 51 * 224);
+}
+
 TEST(InformationGain, DoesNotDependOnTheNumberOfThreads) {
   const InformationGain gain{Profiler{}};
   std::mt19937_64 engine(3);
