@@ -89,7 +89,10 @@ inline std::vector<float> CastStripe(const Solid& solid, const Profiler& profile
 }
 
 /// The stripes of a sweep, the closing one included.
-inline std::vector<Stripe> ScanSolid(const Solid& solid, const Profiler& profiler, const Sweep& sweep) {
+///
+/// @param take_ranges  take_ranges(X_WS, index): the ranges of one stripe.
+template <typename TakeRanges>
+std::vector<Stripe> MakeStripes(const Sweep& sweep, TakeRanges&& take_ranges) {
   const Eigen::Vector3d along = sweep.to_W - sweep.from_W;
   const int count = static_cast<int>(std::lround(along.norm() / sweep.step_m)) + 1;
   std::vector<Stripe> stripes;
@@ -100,11 +103,17 @@ inline std::vector<Stripe> ScanSolid(const Solid& solid, const Profiler& profile
     stripe.utime_us = sweep.scan * 100'000'000LL + i * 40'000LL;
     stripe.end_of_scan = i == count;
     stripe.X_WS = MakeLookPose(sweep.from_W + along.normalized() * (i * sweep.step_m), sweep.view_W, along);
-    if (!stripe.end_of_scan) stripe.ranges_m = CastStripe(solid, profiler, stripe.X_WS, sweep.scan, i);
+    if (!stripe.end_of_scan) stripe.ranges_m = take_ranges(stripe.X_WS, i);
     stripe.X_WS.translation() += sweep.offset_W;
     stripes.push_back(stripe);
   }
   return stripes;
+}
+
+inline std::vector<Stripe> ScanSolid(const Solid& solid, const Profiler& profiler, const Sweep& sweep) {
+  return MakeStripes(sweep, [&](const Pose& X_WS, int index) {
+    return CastStripe(solid, profiler, X_WS, static_cast<uint64_t>(sweep.scan), static_cast<uint64_t>(index));
+  });
 }
 
 /// Sweeps along z from `count` sides about the z axis, looking at the axis, then three each from above and from below.
