@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
-#include "common/runtime/counter_random.h"
 #include "sim/directions.h"
 
 namespace nbs {
@@ -19,42 +17,12 @@ constexpr int kDirections = 256;
 constexpr double kSurfaceSkip_m = 1e-4;
 /// No vertex of a reconstruction lies farther from the truth.
 constexpr double kFar_m = 10.0;
-constexpr uint64_t kPlacementKey = 0x636f766572616765;  // "coverage"
 
 }  // namespace
 
 CoverageOracle::CoverageOracle(const TriangleMesh& truth_W, const CoverageSettings& settings)
-    : settings_(settings), truth_W_(truth_W) {
-  if (settings.samples < 1)
-    throw std::invalid_argument("CoverageOracle: " + std::to_string(settings.samples) + " samples");
-  PlaceSamples(truth_W);
+    : settings_(settings), truth_W_(truth_W), samples_(MakeSurfaceSamples(truth_W, settings.samples)) {
   FindObservable();
-}
-
-void CoverageOracle::PlaceSamples(const TriangleMesh& truth_W) {
-  const auto corner = [&truth_W](size_t t, int i) -> Vector3d {
-    return truth_W.vertices_W[truth_W.triangles[t][i]].cast<double>();
-  };
-  std::vector<double> area_up_to;
-  double area = 0.0;
-  for (size_t t = 0; t < truth_W.triangles.size(); ++t) {
-    area += 0.5 * (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)).norm();
-    area_up_to.push_back(area);
-  }
-  if (!(area > 0.0)) throw std::invalid_argument("CoverageOracle: the truth has no area");
-  samples_.reserve(settings_.samples);
-  size_t t = 0;
-  for (int i = 0; i < settings_.samples; ++i) {
-    // The surface, laid out triangle after triangle, is cut into parts of equal area; each has its sample in the
-    // middle.
-    const double target = (i + 0.5) / settings_.samples * area;
-    while (area_up_to[t] < target) ++t;
-    const double root = std::sqrt(CalcUniform({kPlacementKey, static_cast<uint64_t>(i), 0}));
-    const double v = CalcUniform({kPlacementKey, static_cast<uint64_t>(i), 1});
-    const Vector3d a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
-    const Vector3d p = (1.0 - root) * a + root * (1.0 - v) * b + root * v * c;
-    samples_.push_back({p, (b - a).cross(c - a).normalized()});
-  }
 }
 
 void CoverageOracle::FindObservable() {
@@ -70,7 +38,7 @@ void CoverageOracle::FindObservable() {
     std::vector<TriangleScene::Segment> sights;
     std::vector<size_t> tried;
     for (size_t i : open) {
-      const Sample& sample = samples_[i];
+      const SurfaceSample& sample = samples_[i];
       const Vector3d direction = d < 0 ? sample.normal_W : directions[d];
       const Vector3d end = sample.p_W + depth * direction;
       if (direction.dot(sample.normal_W) < min_cosine || end.z() < lowest) continue;
@@ -106,7 +74,7 @@ Coverage CoverageOracle::Evaluate(const TriangleMesh& mesh_W) const {
   const double min_cosine = std::cos(settings_.max_angle_rad);
   int64_t covered = 0, observable = 0, both = 0;
   for (size_t i = 0; i < samples_.size(); ++i) {
-    const Sample& sample = samples_[i];
+    const SurfaceSample& sample = samples_[i];
     const bool has_partner =
         scene.FindClosestFacing(sample.p_W, settings_.max_distance_m, sample.normal_W, min_cosine).has_value();
     covered += has_partner;

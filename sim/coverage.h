@@ -7,6 +7,7 @@
 #include "common/geometry/triangle_mesh.h"
 #include "common/sensing/profiler.h"
 #include "sim/scene.h"
+#include "sim/surface_samples.h"
 
 namespace nbs {
 
@@ -45,18 +46,12 @@ class CoverageOracle {
   Coverage Evaluate(const TriangleMesh& mesh_W) const;
 
  private:
-  struct Sample {
-    Eigen::Vector3d p_W;
-    Eigen::Vector3d normal_W;
-  };
-
-  void PlaceSamples(const TriangleMesh& truth_W);
   void FindObservable();
   double CalcRmse(const TriangleMesh& mesh_W) const;
 
   CoverageSettings settings_;
   TriangleScene truth_W_;
-  std::vector<Sample> samples_;
+  std::vector<SurfaceSample> samples_;
   std::vector<uint8_t> observable_;  ///< One a sample.
   double observable_share_ = 0.0;
 };
