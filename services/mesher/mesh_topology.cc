@@ -1,29 +1,25 @@
 #include "services/mesher/mesh_topology.h"
 
-#include <algorithm>
-
 namespace nbs {
 
 uint32_t MeshTopology::Insert(const Triangle& t, int32_t group) {
   if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return kNone;
-  const uint32_t largest = *std::max_element(t.begin(), t.end());
-  if (largest >= fans_.size()) fans_.resize(largest + 1);
   for (int i = 0; i < 3; ++i) {
-    if (fans_[t[i]].size == kMaxTrianglesPerVertex || Find(t[i], t[(i + 1) % 3]) != kNone) return kNone;
+    if (Find(t[i], t[(i + 1) % 3]) != kNone) return kNone;
   }
   for (int i = 0; i < 3; ++i) border_edge_count_ += Find(t[(i + 1) % 3], t[i]) == kNone ? 1 : -1;
   uint32_t slot = static_cast<uint32_t>(triangles_.size());
   if (free_.empty()) {
     triangles_.push_back(t);
-    groups_.push_back(group);
-    changed_.push_back(0);
+    links_.push_back({});
+    changed_.push_back(false);
   } else {
     slot = free_.back();
     free_.pop_back();
     triangles_[slot] = t;
-    groups_[slot] = group;
   }
-  for (uint32_t v : t) fans_[v].slots[fans_[v].size++] = slot;
+  links_[slot].group = group;
+  Link(slot);
   ++triangle_count_;
   MarkChanged(slot);
   return slot;
@@ -31,16 +27,32 @@ uint32_t MeshTopology::Insert(const Triangle& t, int32_t group) {
 
 void MeshTopology::Remove(uint32_t slot) {
   const Triangle t = triangles_[slot];
-  for (uint32_t v : t) {
-    Fan& fan = fans_[v];
-    *std::find(fan.slots.begin(), fan.slots.begin() + fan.size, slot) = fan.slots[fan.size - 1];
-    --fan.size;
-  }
+  Unlink(slot);
   for (int i = 0; i < 3; ++i) border_edge_count_ += Find(t[(i + 1) % 3], t[i]) == kNone ? -1 : 1;
   triangles_[slot] = {0, 0, 0};
   free_.push_back(slot);
   --triangle_count_;
   MarkChanged(slot);
+}
+
+void MeshTopology::Link(uint32_t slot) {
+  const Triangle& t = triangles_[slot];
+  first_.GrowTo(std::max({t[0], t[1], t[2]}) + size_t{1});
+  for (int i = 0; i < 3; ++i) {
+    links_[slot].next[i] = first_[t[i]].slot;
+    first_[t[i]].slot = slot;
+    MarkNearBorder(t[i]);
+  }
+}
+
+void MeshTopology::Unlink(uint32_t slot) {
+  const Triangle& t = triangles_[slot];
+  for (int i = 0; i < 3; ++i) {
+    uint32_t* link = &first_[t[i]].slot;
+    while (*link != slot) link = &links_[*link].next[CornerOf(*link, t[i])];
+    *link = links_[slot].next[i];
+    MarkNearBorder(t[i]);
+  }
 }
 
 uint32_t MeshTopology::Find(uint32_t a, uint32_t b) const {
@@ -50,19 +62,18 @@ uint32_t MeshTopology::Find(uint32_t a, uint32_t b) const {
   return kNone;
 }
 
-std::span<const uint32_t> MeshTopology::TrianglesAt(uint32_t vertex) const {
-  if (vertex >= fans_.size()) return {};
-  return {fans_[vertex].slots.data(), fans_[vertex].size};
+size_t MeshTopology::CountTrianglesAt(uint32_t vertex) const {
+  size_t count = 0;
+  for (auto it = TrianglesAt(vertex).begin(); it != TrianglesAt(vertex).end(); ++it) ++count;
+  return count;
 }
 
 uint32_t MeshTopology::Next(uint32_t slot, uint32_t vertex) const {
-  const Triangle& t = triangles_[slot];
-  return t[0] == vertex ? t[1] : t[1] == vertex ? t[2] : t[0];
+  return triangles_[slot][(CornerOf(slot, vertex) + 1) % 3];
 }
 
 uint32_t MeshTopology::Previous(uint32_t slot, uint32_t vertex) const {
-  const Triangle& t = triangles_[slot];
-  return t[0] == vertex ? t[2] : t[1] == vertex ? t[0] : t[1];
+  return triangles_[slot][(CornerOf(slot, vertex) + 2) % 3];
 }
 
 void MeshTopology::FindBorderSuccessors(uint32_t vertex, std::vector<uint32_t>& successors) const {
@@ -77,14 +88,21 @@ std::vector<uint32_t> MeshTopology::TakeChangedSlots() {
   std::vector<uint32_t> list;
   list.swap(changed_list_);
   std::sort(list.begin(), list.end());
-  for (uint32_t slot : list) changed_[slot] = 0;
+  for (uint32_t slot : list) changed_[slot] = false;
   return list;
 }
 
 void MeshTopology::MarkChanged(uint32_t slot) {
-  if (changed_[slot] != 0) return;
-  changed_[slot] = 1;
+  if (changed_[slot]) return;
+  changed_[slot] = true;
   changed_list_.push_back(slot);
+}
+
+void MeshTopology::MarkNearBorder(uint32_t vertex) {
+  if (vertex >= near_border_.size()) near_border_.resize(vertex + 1, false);
+  if (near_border_[vertex]) return;
+  near_border_[vertex] = true;
+  near_border_list_.push_back(vertex);
 }
 
 }  // namespace nbs

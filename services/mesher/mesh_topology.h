@@ -1,10 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <span>
-#include <utility>
 #include <vector>
+
+#include "services/mesher/paged_vector.h"
 
 namespace nbs {
 
@@ -13,11 +14,10 @@ namespace nbs {
 class MeshTopology {
  public:
   static constexpr uint32_t kNone = 0xffffffffu;
-  static constexpr int kMaxTrianglesPerVertex = 28;
   using Triangle = std::array<uint32_t, 3>;
 
-  /// Adds the triangle and returns its slot; kNone if one of its directed edges is taken, two vertices are equal or a
-  /// vertex has its fill of triangles.
+  /// Adds the triangle and returns its slot; kNone if one of its directed edges is taken or two vertices are
+  /// equal.
   ///
   /// @param group  Any number of the caller's; group() gives it back.
   uint32_t Insert(const Triangle& t, int32_t group);
@@ -27,12 +27,42 @@ class MeshTopology {
   uint32_t Find(uint32_t a, uint32_t b) const;
 
   /// By slot; an empty slot has three equal vertices.
-  const std::vector<Triangle>& triangles() const { return triangles_; }
-  int32_t group(uint32_t slot) const { return groups_[slot]; }
+  const PagedVector<Triangle>& triangles() const { return triangles_; }
+  int32_t group(uint32_t slot) const { return links_[slot].group; }
   bool IsEmpty(uint32_t slot) const { return triangles_[slot][0] == triangles_[slot][1]; }
 
-  /// Slots of the triangles at a vertex, in no particular order that matters.
-  std::span<const uint32_t> TrianglesAt(uint32_t vertex) const;
+  /// The slots of the triangles at a vertex, one after the other: in no particular order, but the same one whenever the
+  /// same triangles have come and gone. To be read while no triangle comes or goes.
+  class TriangleRange {
+   public:
+    class Iterator {
+     public:
+      Iterator(const MeshTopology* mesh, uint32_t vertex, uint32_t slot) : mesh_(mesh), vertex_(vertex), slot_(slot) {}
+      uint32_t operator*() const { return slot_; }
+      Iterator& operator++() {
+        slot_ = mesh_->links_[slot_].next[mesh_->CornerOf(slot_, vertex_)];
+        return *this;
+      }
+      bool operator!=(const Iterator& other) const { return slot_ != other.slot_; }
+
+     private:
+      const MeshTopology* mesh_;
+      uint32_t vertex_, slot_;
+    };
+    TriangleRange(const MeshTopology* mesh, uint32_t vertex, uint32_t first)
+        : mesh_(mesh), vertex_(vertex), first_(first) {}
+    Iterator begin() const { return {mesh_, vertex_, first_}; }
+    Iterator end() const { return {mesh_, vertex_, kNone}; }
+    bool empty() const { return first_ == kNone; }
+
+   private:
+    const MeshTopology* mesh_;
+    uint32_t vertex_, first_;
+  };
+  TriangleRange TrianglesAt(uint32_t vertex) const {
+    return {this, vertex, vertex < first_.size() ? first_[vertex].slot : kNone};
+  }
+  size_t CountTrianglesAt(uint32_t vertex) const;
 
   /// The vertex that comes after, or before, `vertex` in the triangle.
   uint32_t Next(uint32_t slot, uint32_t vertex) const;
@@ -40,6 +70,11 @@ class MeshTopology {
 
   /// The vertices to which a border runs from `vertex`, walking with the gap on the left.
   void FindBorderSuccessors(uint32_t vertex, std::vector<uint32_t>& successors) const;
+
+  /// Calls visit(a, b) for each border edge, from a to b with the gap on the left, in ascending order of a. What it
+  /// takes grows with the border, and with what has changed since the call before, not with the mesh.
+  template <typename Visit>
+  void ForEachBorderEdge(Visit&& visit);
 
   int64_t triangle_count() const { return triangle_count_; }
   int64_t border_edge_count() const { return border_edge_count_; }
@@ -49,21 +84,49 @@ class MeshTopology {
   std::vector<uint32_t> TakeChangedSlots();
 
  private:
-  struct Fan {
-    std::array<uint32_t, kMaxTrianglesPerVertex> slots;
-    uint8_t size = 0;
+  /// What a triangle's slot holds besides its vertices.
+  struct Links {
+    std::array<uint32_t, 3> next{};  ///< By corner: the next slot in the list of the vertex there.
+    int32_t group = 0;
+  };
+  /// Beginning of the list of a vertex's triangles.
+  struct First {
+    uint32_t slot = kNone;
   };
 
+  int CornerOf(uint32_t slot, uint32_t vertex) const {
+    const Triangle& t = triangles_[slot];
+    return t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
+  }
+  void Link(uint32_t slot);
+  void Unlink(uint32_t slot);
   void MarkChanged(uint32_t slot);
+  void MarkNearBorder(uint32_t vertex);
 
-  std::vector<Triangle> triangles_;
-  std::vector<int32_t> groups_;
-  std::vector<uint8_t> changed_;
+  PagedVector<Triangle> triangles_;
+  PagedVector<Links> links_;
+  PagedVector<First> first_;
+  std::vector<bool> changed_;
   std::vector<uint32_t> changed_list_;
   std::vector<uint32_t> free_;
-  std::vector<Fan> fans_;
+  // All vertices on the border are listed, and some that no longer are.
+  std::vector<bool> near_border_;
+  std::vector<uint32_t> near_border_list_;
   int64_t triangle_count_ = 0;
   int64_t border_edge_count_ = 0;
 };
+
+template <typename Visit>
+void MeshTopology::ForEachBorderEdge(Visit&& visit) {
+  std::vector<uint32_t> successors, list;
+  list.swap(near_border_list_);
+  std::sort(list.begin(), list.end());
+  for (uint32_t vertex : list) {
+    FindBorderSuccessors(vertex, successors);
+    near_border_[vertex] = !successors.empty();
+    if (!successors.empty()) near_border_list_.push_back(vertex);
+    for (uint32_t next : successors) visit(vertex, next);
+  }
+}
 
 }  // namespace nbs

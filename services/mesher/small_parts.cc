@@ -27,7 +27,7 @@ std::vector<uint32_t> FindLesserFans(const MeshTopology& mesh, uint32_t vertex) 
   std::vector<uint32_t> successors;
   mesh.FindBorderSuccessors(vertex, successors);
   if (successors.empty() ||
-      (successors.size() == 1 && CollectFan(mesh, vertex, successors[0]).size() == mesh.TrianglesAt(vertex).size()))
+      (successors.size() == 1 && CollectFan(mesh, vertex, successors[0]).size() == mesh.CountTrianglesAt(vertex)))
     return {};
   std::vector<uint32_t> largest;
   for (uint32_t last : successors) {

@@ -110,7 +110,7 @@ void StarTriangulation::HoldBackIslands() {
   std::vector<uint32_t> successors;
   for (uint32_t id : touched_in_update_) {
     topology_.FindBorderSuccessors(id, successors);
-    if (!successors.empty()) HoldBack(FindIsland(topology_, topology_.TrianglesAt(id).front(), settings_.least_part));
+    if (!successors.empty()) HoldBack(FindIsland(topology_, *topology_.TrianglesAt(id).begin(), settings_.least_part));
   }
   touched_.clear();
   touched_in_update_.clear();
@@ -166,8 +166,8 @@ bool StarTriangulation::IsAgreed(const MeshTopology::Triangle& t, const VertexSt
 }
 
 void StarTriangulation::RemoveDisagreed(uint32_t id, const VertexStore& vertices) {
-  const std::span<const uint32_t> fan = topology_.TrianglesAt(id);
-  const std::vector<uint32_t> slots(fan.begin(), fan.end());
+  std::vector<uint32_t> slots;
+  for (uint32_t slot : topology_.TrianglesAt(id)) slots.push_back(slot);
   for (uint32_t slot : slots) {
     if (topology_.group(slot) == kAgreed && !IsAgreed(topology_.triangles()[slot], vertices)) RemoveTriangle(slot);
   }
@@ -197,7 +197,7 @@ void StarTriangulation::InsertTriangle(const MeshTopology::Triangle& t) {
 }
 
 void StarTriangulation::RemoveTriangle(uint32_t slot) {
-  const MeshTopology::Triangle& t = topology_.triangles()[slot];
+  const MeshTopology::Triangle t = topology_.triangles()[slot];
   touched_.insert(touched_.end(), t.begin(), t.end());
   topology_.Remove(slot);
 }

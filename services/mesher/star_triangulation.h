@@ -49,6 +49,11 @@ class StarTriangulation {
 
   const MeshTopology& topology() const { return topology_; }
   std::vector<uint32_t> TakeChangedSlots() { return topology_.TakeChangedSlots(); }
+  /// See MeshTopology.
+  template <typename Visit>
+  void ForEachBorderEdge(Visit&& visit) {
+    topology_.ForEachBorderEdge(visit);
+  }
 
  private:
   // Group of the triangles that the stars agree on; fillings have numbers from 0.

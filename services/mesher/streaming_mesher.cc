@@ -37,7 +37,11 @@ bool StreamingMesher::AddStripe(const Stripe& stripe) {
     EndScan();
   } else {
     ++scan_.stripes;
+    now_.path_m += (stripe.X_WS.translation() - last_p_WS_).norm();
+    ++now_.stripes;
+    last_p_WS_ = stripe.X_WS.translation();
     AddRanges(stripe);
+    Advance();
   }
   return true;
 }
@@ -70,9 +74,11 @@ void StreamingMesher::BeginScan(int32_t scan) {
 
 void StreamingMesher::EndScan() {
   Update();
-  for (uint32_t id = 0; id < vertices_.size(); ++id) {
+  std::sort(pending_.begin(), pending_.end());
+  for (uint32_t id : pending_) {
     if (vertices_[id].state == Vertex::State::kPending) vertices_.Remove(id);
   }
+  pending_.clear();
   scan_ended_ = true;
 }
 
@@ -92,6 +98,7 @@ void StreamingMesher::AddMeasurement(const Measurement& m) {
   });
   if (nearest == MeshTopology::kNone) {
     nearest = vertices_.Insert(m, scan_.scan);
+    pending_.push_back(nearest);
     MarkForFit(nearest);
   }
   Refine(nearest, m);
@@ -113,13 +120,13 @@ void StreamingMesher::MarkForFit(uint32_t id) {
   ++v.fresh;
   if (v.fit_due || static_cast<float>(v.fresh) < settings_.refit_share * static_cast<float>(v.support)) return;
   v.fit_due = true;
-  fit_due_.push_back(id);
+  fit_queue_.Push(id, now_);
 }
 
 void StreamingMesher::MarkForStar(uint32_t id) {
   if (vertices_[id].star_due) return;
   vertices_[id].star_due = true;
-  star_due_.push_back(id);
+  star_queue_.Push(id, now_);
 }
 
 void StreamingMesher::MarkStarsAround(uint32_t id) {
@@ -138,20 +145,27 @@ void StreamingMesher::MarkForPublishing(uint32_t id) {
   publish_due_.push_back(id);
 }
 
-void StreamingMesher::Update() {
+void StreamingMesher::Advance() {
+  fit_queue_.TakeDue(now_, settings_.fit_lag_m, settings_.lag_stripes, due_);
   FitDueVertices();
+  star_queue_.TakeDue(now_, settings_.star_lag_m, settings_.lag_stripes, due_);
+  TriangulateDueVertices();
+}
+
+void StreamingMesher::Update() {
+  fit_queue_.TakeAll(due_);
+  FitDueVertices();
+  star_queue_.TakeAll(due_);
   TriangulateDueVertices();
 }
 
 void StreamingMesher::FitDueVertices() {
-  std::sort(fit_due_.begin(), fit_due_.end());
-  for (uint32_t id : fit_due_) {
+  for (uint32_t id : due_) {
     vertices_[id].fit_due = false;
     vertices_[id].fresh = 0;
     if (vertices_[id].state == Vertex::State::kReal) FitReal(id);
     if (vertices_[id].state == Vertex::State::kPending) FitPending(id);
   }
-  fit_due_.clear();
 }
 
 void StreamingMesher::FitPending(uint32_t id) {
@@ -169,6 +183,7 @@ void StreamingMesher::FitPending(uint32_t id) {
     return;
   }
   v.state = Vertex::State::kReal;
+  ++real_vertices_;
   v.support = fit->measurements;
   v.normal_W = fit->normal_W;
   v.best_cosine = fit->normal_W.dot(v.view_sum_W) / view_length;
@@ -216,14 +231,11 @@ void StreamingMesher::FitReal(uint32_t id) {
 }
 
 void StreamingMesher::TriangulateDueVertices() {
-  std::sort(star_due_.begin(), star_due_.end());
-  for (uint32_t id : star_due_) vertices_[id].star_due = false;
-  triangulation_.Update(star_due_, vertices_);
-  star_due_.clear();
+  for (uint32_t id : due_) vertices_[id].star_due = false;
+  if (!due_.empty()) triangulation_.Update(due_, vertices_);
 }
 
 MeshDelta StreamingMesher::TakeDelta() {
-  Update();
   MeshDelta delta;
   delta.utime_us = scan_.utime_us;
   delta.scan = scan_.scan;
@@ -262,19 +274,21 @@ void StreamingMesher::CollectVertices(MeshDelta& delta) {
   publish_due_ = std::move(held_back);
 }
 
-MeshScan StreamingMesher::CalcScanFigures() const {
+double StreamingMesher::CalcRimLength() {
+  double length_m = 0.0;
+  triangulation_.ForEachBorderEdge(
+      [&](uint32_t a, uint32_t b) { length_m += static_cast<double>((vertices_[b].p_W - vertices_[a].p_W).norm()); });
+  return length_m;
+}
+
+MeshScan StreamingMesher::CalcScanFigures() {
   MeshScan figures = scan_;
   figures.refused = counts_.refused_measurements + counts_.refused_stripes;
+  figures.vertices = real_vertices_;
   figures.triangles = topology().triangle_count();
   figures.edges = topology().edge_count();
   figures.border_edges = topology().border_edge_count();
-  std::vector<uint32_t> successors;
-  for (uint32_t id = 0; id < vertices_.size(); ++id) {
-    if (vertices_[id].state != Vertex::State::kReal) continue;
-    ++figures.vertices;
-    topology().FindBorderSuccessors(id, successors);
-    for (uint32_t next : successors) figures.rim_length_m += (vertices_[next].p_W - vertices_[id].p_W).norm();
-  }
+  figures.rim_length_m = CalcRimLength();
   if (figures.edges > 0)
     figures.completeness = 1.0 - static_cast<double>(figures.border_edges) / static_cast<double>(figures.edges);
   return figures;

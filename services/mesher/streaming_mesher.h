@@ -5,6 +5,7 @@
 
 #include "common/geometry/mesh_delta.h"
 #include "common/sensing/profiler.h"
+#include "services/mesher/lag_queue.h"
 #include "services/mesher/measurement_map.h"
 #include "services/mesher/star_triangulation.h"
 #include "services/mesher/surface_fit.h"
@@ -28,6 +29,12 @@ struct StreamingMesherSettings {
   float sample_cosine = 0.15f;
   /// A surface seen only more obliquely than this is no surface, but points in the air at a depth edge.
   float max_incidence_rad = 1.40f;
+  /// A vertex is fitted when the sensor has moved on by this since the first measurement near it, so that its
+  /// surroundings are measured by then; its star is made when it has moved on by this again, so that those of its
+  /// neighbours are fitted by then. A sensor that stands still is waited for no longer than lag_stripes.
+  double fit_lag_m = 0.010;
+  double star_lag_m = 0.008;
+  int64_t lag_stripes = 25;
   float refit_share = 0.1f;       ///< A surface is fitted again when this share of its support has come near since.
   float star_moved_m = 0.0001f;   ///< Stars are made anew when a vertex moved further than this,
   float star_turned_rad = 0.05f;  ///< or turned further than this.
@@ -49,8 +56,9 @@ struct MesherCounts {
 ///
 /// Measurements are summed up in a MeasurementMap. A measurement that has no vertex within R_d founds a pending one;
 /// vertices with enough support get a fitted surface, move onto it and become real; StarTriangulation joins them. Fits
-/// and triangles are brought up to date in batches, by Update. The result is a function of the stripes and of the
-/// places of the updates between them.
+/// and triangles follow the sensor at a distance (fit_lag_m, star_lag_m), so that each stripe brings about the same
+/// work, and are brought up to date at the end of a scan. The mesh is a function of the stripes, wherever deltas are
+/// taken between them.
 class StreamingMesher {
  public:
   StreamingMesher(const Profiler& profiler, const StreamingMesherSettings& settings);
@@ -65,15 +73,15 @@ class StreamingMesher {
   /// @returns False if the stripe was refused as a whole.
   bool AddStripe(const Stripe& stripe);
 
-  /// Brings fits and triangles up to date with all stripes so far.
+  /// Brings fits and triangles up to date with all stripes so far, without waiting for the sensor to move on.
   void Update();
 
-  /// Updates, then returns what changed since the last delta. After a closing stripe the delta has end_of_scan set and
-  /// holds everything; before, refinements too small to notice are held back.
+  /// What changed since the last delta. After a closing stripe the delta has end_of_scan set and holds everything;
+  /// before, what the lags and refinements too small to notice hold back comes later.
   MeshDelta TakeDelta();
 
   /// Figures of the mesh after the last update and of the scan so far.
-  MeshScan CalcScanFigures() const;
+  MeshScan CalcScanFigures();
 
   const MesherCounts& counts() const { return counts_; }
   const VertexStore& vertices() const { return vertices_; }
@@ -90,11 +98,13 @@ class StreamingMesher {
   void MarkForStar(uint32_t id);
   void MarkStarsAround(uint32_t id);
   void MarkForPublishing(uint32_t id);
+  void Advance();
   void FitDueVertices();
   void FitPending(uint32_t id);
   void FitReal(uint32_t id);
   bool HasRoomFor(uint32_t id, const SurfaceFit& fit) const;
   void TriangulateDueVertices();
+  double CalcRimLength();
   void CollectVertices(MeshDelta& delta);
 
   Profiler profiler_;
@@ -108,7 +118,12 @@ class StreamingMesher {
   int32_t last_index_ = -1;
   bool scan_ended_ = true;
   bool scan_begun_ = false;
-  std::vector<uint32_t> fit_due_, star_due_, publish_due_;
+  LagQueue fit_queue_, star_queue_;
+  std::vector<uint32_t> due_;  // Taken out of a queue.
+  std::vector<uint32_t> pending_, publish_due_;
+  int64_t real_vertices_ = 0;
+  Eigen::Vector3d last_p_WS_ = Eigen::Vector3d::Zero();
+  LagQueue::Moment now_;
   std::vector<MeshVertex> published_;  // By number, as last published; measurements 0: not published.
   std::vector<uint8_t> in_publish_due_;
   std::vector<Sample> samples_;

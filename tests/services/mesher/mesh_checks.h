@@ -26,8 +26,8 @@ struct MeshFigures {
   double area_m2 = 0.0;
 };
 
-inline MeshFigures CountMesh(const std::vector<std::array<uint32_t, 3>>& triangles,
-                             const std::function<Eigen::Vector3f(uint32_t)>& p_W) {
+template <typename Triangles>
+MeshFigures CountMesh(const Triangles& triangles, const std::function<Eigen::Vector3f(uint32_t)>& p_W) {
   MeshFigures figures;
   std::map<std::pair<uint32_t, uint32_t>, int> directed;
   for (const auto& t : triangles) {
@@ -61,8 +61,15 @@ inline MeshFigures CountMesh(const StreamingMesher& mesher) {
   return CountMesh(mesher.topology().triangles(), [&](uint32_t id) { return mesher.vertices()[id].p_W; });
 }
 
+/// True if the replica has the mesher's triangles, slot by slot.
+inline bool HasSameTriangles(const MeshReplica& replica, const StreamingMesher& mesher) {
+  return replica.triangles().size() == mesher.topology().triangles().size() &&
+         std::equal(replica.triangles().begin(), replica.triangles().end(), mesher.topology().triangles().begin());
+}
+
 /// Lengths, in edges, of the closed loops of the border; each border edge in one loop.
-inline std::vector<int> CalcLoopLengths(const std::vector<std::array<uint32_t, 3>>& triangles) {
+template <typename Triangles>
+std::vector<int> CalcLoopLengths(const Triangles& triangles) {
   std::set<std::pair<uint32_t, uint32_t>> directed;
   for (const auto& t : triangles) {
     if (t[0] == t[1]) continue;

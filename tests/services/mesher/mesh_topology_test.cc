@@ -45,6 +45,30 @@ TEST(MeshTopology, ChangedSlotsComeOnceAndAscending) {
   EXPECT_TRUE(mesh.TakeChangedSlots().empty());
 }
 
+TEST(MeshTopology, BorderEdgesEqualThoseFromScratchAfterRandomChanges) {
+  MeshTopology mesh;
+  for (uint64_t step = 0; step < 2000; ++step) {
+    const uint64_t bits = CalcRandomBits({4, step});
+    if (bits % 2 != 0) {
+      mesh.Insert({static_cast<uint32_t>(bits >> 8) % 12, static_cast<uint32_t>(bits >> 24) % 12,
+                   static_cast<uint32_t>(bits >> 40) % 12},
+                  0);
+    } else if (!mesh.triangles().empty()) {
+      const uint32_t slot = static_cast<uint32_t>(bits >> 8) % static_cast<uint32_t>(mesh.triangles().size());
+      if (!mesh.IsEmpty(slot)) mesh.Remove(slot);
+    }
+    if (step % 7 != 0) continue;
+    std::set<std::pair<uint32_t, uint32_t>> expected, given;
+    for (uint32_t a = 0; a < 12; ++a) {
+      for (uint32_t b = 0; b < 12; ++b) {
+        if (mesh.Find(b, a) != MeshTopology::kNone && mesh.Find(a, b) == MeshTopology::kNone) expected.insert({a, b});
+      }
+    }
+    mesh.ForEachBorderEdge([&](uint32_t a, uint32_t b) { EXPECT_TRUE(given.insert({a, b}).second); });
+    ASSERT_EQ(given, expected);
+  }
+}
+
 TEST(MeshTopology, CountsEqualThoseFromScratchAfterRandomChanges) {
   MeshTopology mesh;
   for (uint64_t step = 0; step < 4000; ++step) {

@@ -217,7 +217,7 @@ TEST(StreamingMesher, MeshIsAManifoldAfterEachStripeAndTheReplicaEqualsIt) {
       replica.Apply(mesher.TakeDelta());
       ASSERT_EQ(CountMesh(mesher).doubled_edges, 0);
       ASSERT_EQ(CountMesh(mesher).bow_ties, 0);
-      ASSERT_EQ(replica.triangles(), mesher.topology().triangles());
+      ASSERT_TRUE(HasSameTriangles(replica, mesher));
     }
     for (const MeshVertex& v : replica.vertices()) {
       if (v.measurements > 0) {
