@@ -23,16 +23,25 @@ int32_t BrickGrid::FindBrick(uint64_t key) const {
 
 int32_t BrickGrid::InsertBrick(uint64_t key) {
   size_t slot = SlotOf(key);
-  if (keys_[slot] != 0) return values_[slot];
-  if (2 * (bricks_.size() + 1) > keys_.size()) {
-    Grow();
-    slot = SlotOf(key);
+  if (keys_[slot] != 0 && values_[slot] != kNone) return values_[slot];
+  if (keys_[slot] == 0) {
+    if (2 * ++key_count_ > keys_.size()) {
+      Grow();
+      slot = SlotOf(key);
+    }
+    keys_[slot] = key + 1;
   }
-  keys_[slot] = key + 1;
-  values_[slot] = static_cast<int32_t>(bricks_.size());
-  bricks_.push_back(std::make_unique<Brick>());
-  bricks_.back()->heads.fill(kNone);
-  bricks_.back()->rows.fill(0);
+  if (free_.empty()) {
+    values_[slot] = static_cast<int32_t>(bricks_.size());
+    bricks_.push_back(std::make_unique<Brick>());
+  } else {
+    values_[slot] = free_.back();
+    free_.pop_back();
+  }
+  Brick& brick = *bricks_[values_[slot]];
+  brick.heads.fill(kNone);
+  brick.rows.fill(0);
+  brick.filled = 0;
   return values_[slot];
 }
 
@@ -53,7 +62,9 @@ int32_t& BrickGrid::Touch(const Eigen::Vector3f& p_W) {
   const Cell cell = CellOf(p_W);
   Brick& brick = *bricks_[InsertBrick(KeyOf(cell.x() >> kShift, cell.y() >> kShift, cell.z() >> kShift))];
   const int x = cell.x() & kMask, y = cell.y() & kMask, z = cell.z() & kMask;
-  brick.rows[kEdge * x + y] |= static_cast<uint16_t>(1u << z);
+  uint8_t& row = brick.rows[kEdge * x + y];
+  brick.filled += (row >> z & 1) == 0;
+  row |= static_cast<uint8_t>(1u << z);
   return brick.heads[kEdge * (kEdge * x + y) + z];
 }
 
@@ -67,12 +78,18 @@ int32_t BrickGrid::Find(const Eigen::Vector3f& p_W) const {
 
 void BrickGrid::Clear(const Eigen::Vector3f& p_W) {
   const Cell cell = CellOf(p_W);
-  const int32_t number = FindBrick(KeyOf(cell.x() >> kShift, cell.y() >> kShift, cell.z() >> kShift));
+  const uint64_t key = KeyOf(cell.x() >> kShift, cell.y() >> kShift, cell.z() >> kShift);
+  const int32_t number = FindBrick(key);
   if (number == kNone) return;
   Brick& brick = *bricks_[number];
   const int x = cell.x() & kMask, y = cell.y() & kMask, z = cell.z() & kMask;
-  brick.rows[kEdge * x + y] &= static_cast<uint16_t>(~(1u << z));
+  uint8_t& row = brick.rows[kEdge * x + y];
+  if ((row >> z & 1) == 0) return;
+  row &= static_cast<uint8_t>(~(1u << z));
   brick.heads[kEdge * (kEdge * x + y) + z] = kNone;
+  if (--brick.filled > 0) return;
+  values_[SlotOf(key)] = kNone;
+  free_.push_back(number);
 }
 
 }  // namespace nbs

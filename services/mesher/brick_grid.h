@@ -13,7 +13,8 @@ namespace nbs {
 /// Unbounded sparse grid over W: maps each cubic cell to the head of a caller's list (an index, kNone when empty).
 ///
 /// Cells live in bricks of 8 x 8 x 8, found by an open-addressing hash; a brick keeps one byte of occupancy for each
-/// row along z, so that a search over a box skips empty space at a byte a row. Cells are visited in the order brick (x,
+/// row along z, so that a search over a box skips empty space at a byte a row. A brick whose cells are all empty again
+/// is used for another place. Cells are visited in the order brick (x,
 /// y, z), then cell (x, y, z): never in an order of insertion.
 class BrickGrid {
  public:
@@ -42,10 +43,12 @@ class BrickGrid {
   void ForEachCell(const Eigen::Vector3f& p_W, float radius_m, Visit&& visit) const;
 
  private:
-  static constexpr int kShift = 4, kEdge = 1 << kShift, kMask = kEdge - 1;
+  static constexpr int kShift = 3, kEdge = 1 << kShift, kMask = kEdge - 1;
+  static constexpr unsigned kFullRow = (1u << kEdge) - 1;
   struct Brick {
     std::array<int32_t, kEdge * kEdge * kEdge> heads;
-    std::array<uint16_t, kEdge * kEdge> rows;  // Bit z of row (x, y): the cell holds something.
+    std::array<uint8_t, kEdge * kEdge> rows;  // Bit z of row (x, y): the cell holds something.
+    int filled;                               // Cells that do.
   };
   using Cell = Eigen::Vector3i;
 
@@ -55,9 +58,9 @@ class BrickGrid {
             static_cast<int>(std::floor(p_W.z() * inverse_cell_))};
   }
   static uint64_t KeyOf(int x, int y, int z) {
-    constexpr uint64_t kMask = (1u << 21) - 1;
-    return (static_cast<uint64_t>(x) & kMask) << 42 | (static_cast<uint64_t>(y) & kMask) << 21 |
-           (static_cast<uint64_t>(z) & kMask);
+    constexpr uint64_t kBits = (1u << 21) - 1;
+    return (static_cast<uint64_t>(x) & kBits) << 42 | (static_cast<uint64_t>(y) & kBits) << 21 |
+           (static_cast<uint64_t>(z) & kBits);
   }
   int32_t FindBrick(uint64_t key) const;
   int32_t InsertBrick(uint64_t key);
@@ -68,14 +71,16 @@ class BrickGrid {
   static void VisitBrick(const Brick& brick, const Cell& low, const Cell& high, Visit& visit);
 
   float inverse_cell_;
+  size_t key_count_ = 0;
   std::vector<uint64_t> keys_;   // Hash table: key of the brick + 1; 0: free.
-  std::vector<int32_t> values_;  // Beside it: number of the brick.
+  std::vector<int32_t> values_;  // Beside it: number of the brick, or kNone.
   std::vector<std::unique_ptr<Brick>> bricks_;
+  std::vector<int32_t> free_;  // Bricks without a place.
 };
 
 template <typename Visit>
 void BrickGrid::VisitBrick(const Brick& brick, const Cell& low, const Cell& high, Visit& visit) {
-  const unsigned span = (0xffffu << low.z()) & (0xffffu >> (kMask - high.z()));
+  const unsigned span = (kFullRow << low.z()) & (kFullRow >> (kMask - high.z()));
   for (int x = low.x(); x <= high.x(); ++x) {
     for (int y = low.y(); y <= high.y(); ++y) {
       unsigned row = brick.rows[kEdge * x + y] & span;

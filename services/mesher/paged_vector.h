@@ -18,14 +18,16 @@ class PagedVector {
   const T& operator[](size_t i) const { return (*pages_[i >> kShift])[i & kMask]; }
   T& back() { return (*this)[size_ - 1]; }
 
-  void push_back(const T& value) {
+  /// Adds a T{} and returns it.
+  T& Append() {
     if (size_ >> kShift == pages_.size()) pages_.push_back(std::make_unique<Page>());
-    (*this)[size_++] = value;
+    return (*this)[size_++];
   }
+  void push_back(const T& value) { Append() = value; }
 
   /// New elements are T{}.
   void GrowTo(size_t size) {
-    while (size_ < size) push_back(T{});
+    while (size_ < size) Append();
   }
 
   class Iterator {

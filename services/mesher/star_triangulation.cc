@@ -54,7 +54,7 @@ bool StarTriangulation::MayBridge(const Vertex& a, const Vertex& b) const {
   return a.normal_W.dot(b.normal_W) > kOpposite || d.dot(b.normal_W - a.normal_W) > kLeastParting * length;
 }
 
-void StarTriangulation::Update(std::span<const uint32_t> due, VertexStore& vertices) {
+void StarTriangulation::Update(std::span<const uint32_t> due, const VertexStore& vertices) {
   for (uint32_t id : due) {
     RemoveFillingsAt(id);
     MakeStar(id, vertices);
@@ -141,14 +141,14 @@ void StarTriangulation::FillLoops(const VertexStore& vertices) {
   }
 }
 
-void StarTriangulation::MakeStar(uint32_t id, VertexStore& vertices) {
-  Vertex& v = vertices[id];
+void StarTriangulation::MakeStar(uint32_t id, const VertexStore& vertices) {
+  const Vertex& v = vertices[id];
   candidates_.clear();
   vertices.ForEachNear(v.p_W, settings_.max_edge_m, [&](uint32_t other) {
     const Vertex& w = vertices[other];
     if (other != id && w.state == Vertex::State::kReal && MayJoin(v, w)) candidates_.push_back({other, w.p_W});
   });
-  v.star = CalcLocalStar(v.p_W, v.normal_W, candidates_, scratch_);
+  stars_.Set(id, CalcLocalStar(v.p_W, v.normal_W, candidates_, scratch_));
 }
 
 bool StarTriangulation::HasGoodShape(const MeshTopology::Triangle& t, const VertexStore& vertices) const {
@@ -159,8 +159,8 @@ bool StarTriangulation::HasGoodShape(const MeshTopology::Triangle& t, const Vert
 
 bool StarTriangulation::IsAgreed(const MeshTopology::Triangle& t, const VertexStore& vertices) const {
   for (int i = 0; i < 3; ++i) {
-    const Vertex& v = vertices[t[i]];
-    if (v.state != Vertex::State::kReal || v.star.FindNext(t[(i + 1) % 3]) != t[(i + 2) % 3]) return false;
+    if (vertices[t[i]].state != Vertex::State::kReal || stars_.FindNext(t[i], t[(i + 1) % 3]) != t[(i + 2) % 3])
+      return false;
   }
   return HasGoodShape(t, vertices);
 }
@@ -174,7 +174,7 @@ void StarTriangulation::RemoveDisagreed(uint32_t id, const VertexStore& vertices
 }
 
 void StarTriangulation::InsertAgreed(uint32_t id, const VertexStore& vertices) {
-  const LocalStar& star = vertices[id].star;
+  const LocalStar star = stars_.Get(id);
   const int pairs = star.closed ? star.degree : star.degree - 1;
   for (int i = 0; i < pairs; ++i) {
     uint32_t a = star.neighbours[i], b = star.neighbours[(i + 1) % star.degree];

@@ -7,6 +7,7 @@
 #include "services/mesher/local_star.h"
 #include "services/mesher/loop_filling.h"
 #include "services/mesher/mesh_topology.h"
+#include "services/mesher/star_store.h"
 #include "services/mesher/vertex_store.h"
 
 namespace nbs {
@@ -45,9 +46,11 @@ class StarTriangulation {
   /// Makes the stars of `due` anew and brings the triangles in line with them.
   ///
   /// @param due  Ascending numbers of the real vertices that are new or have moved, and of those within R_max of one.
-  void Update(std::span<const uint32_t> due, VertexStore& vertices);
+  void Update(std::span<const uint32_t> due, const VertexStore& vertices);
 
   const MeshTopology& topology() const { return topology_; }
+  /// True if the vertex had neighbours on all sides when its star was made.
+  bool IsSurrounded(uint32_t id) const { return stars_.IsClosed(id); }
   std::vector<uint32_t> TakeChangedSlots() { return topology_.TakeChangedSlots(); }
   /// See MeshTopology.
   template <typename Visit>
@@ -60,7 +63,7 @@ class StarTriangulation {
   static constexpr int32_t kAgreed = -1;
 
   bool MayBridge(const Vertex& a, const Vertex& b) const;
-  void MakeStar(uint32_t id, VertexStore& vertices);
+  void MakeStar(uint32_t id, const VertexStore& vertices);
   bool IsAgreed(const MeshTopology::Triangle& t, const VertexStore& vertices) const;
   bool HasGoodShape(const MeshTopology::Triangle& t, const VertexStore& vertices) const;
   void RemoveDisagreed(uint32_t id, const VertexStore& vertices);
@@ -80,6 +83,7 @@ class StarTriangulation {
   TriangulationSettings settings_;
   float least_normal_cosine_;
   MeshTopology topology_;
+  StarStore stars_;
   std::vector<std::vector<uint32_t>> fillings_;  // Slots of the triangles of each filling.
   std::vector<int32_t> free_fillings_;
   std::vector<MeshTopology::Triangle> held_back_;

@@ -4,12 +4,17 @@
 #include <cmath>
 
 namespace nbs {
+namespace {
+
+constexpr float kNormalUnit = 32767.0f;
+
+}  // namespace
 
 StreamingMesher::StreamingMesher(const Profiler& profiler, const StreamingMesherSettings& settings)
     : profiler_(profiler),
       settings_(settings),
       measurements_(settings.cell_m),
-      vertices_(settings.spacing_m),
+      vertices_(2.0f * settings.spacing_m),
       triangulation_(settings.triangulation) {
   for (const Eigen::Vector3d& d : CalcBeamDirections_S(profiler)) directions_S_.push_back(d.cast<float>());
 }
@@ -76,20 +81,35 @@ void StreamingMesher::EndScan() {
   Update();
   std::sort(pending_.begin(), pending_.end());
   for (uint32_t id : pending_) {
-    if (vertices_[id].state == Vertex::State::kPending) vertices_.Remove(id);
+    if (vertices_[id].state != Vertex::State::kPending) continue;
+    unsupported_.push_back({vertices_[id].p_W, now_.stripes});
+    vertices_.Remove(id);
   }
   pending_.clear();
+  ForgetUnsupported();
   scan_ended_ = true;
 }
 
+void StreamingMesher::ForgetUnsupported() {
+  while (!unsupported_.empty() && now_.stripes - unsupported_.front().stripes >= settings_.forget_stripes) {
+    const Eigen::Vector3f p_W = unsupported_.front().p_W;
+    unsupported_.pop_front();
+    const float squared_reach = settings_.fit.radius_m * settings_.fit.radius_m;
+    bool supported = false;
+    vertices_.ForEachNear(p_W, settings_.fit.radius_m, [&](uint32_t id) {
+      const Vertex& v = vertices_[id];
+      supported = supported || (v.state == Vertex::State::kReal && (v.p_W - p_W).squaredNorm() <= squared_reach);
+    });
+    if (!supported) measurements_.Forget(p_W, settings_.spacing_m);
+  }
+}
+
 void StreamingMesher::AddMeasurement(const Measurement& m) {
-  measurements_.Insert(m);
   uint32_t nearest = MeshTopology::kNone;
   float nearest_squared = settings_.spacing_m * settings_.spacing_m;
   vertices_.ForEachNear(m.p_W, settings_.spacing_m, [&](uint32_t id) {
     Vertex& v = vertices_[id];
-    const Eigen::Vector3f& side_W = v.side_W();
-    if (side_W.dot(m.view_W) <= settings_.least_view_cosine * side_W.norm()) return;
+    if (v.normal_W.dot(m.view_W) <= settings_.least_view_cosine * v.normal_W.norm()) return;
     MarkForFit(id);
     const float squared = (v.p_W - m.p_W).squaredNorm();
     if (squared > nearest_squared || (squared == nearest_squared && id > nearest)) return;
@@ -101,16 +121,20 @@ void StreamingMesher::AddMeasurement(const Measurement& m) {
     pending_.push_back(nearest);
     MarkForFit(nearest);
   }
+  // Where the surface is known all around, it says which side this belongs to.
+  measurements_.Insert(m, triangulation_.IsSurrounded(nearest) ? vertices_[nearest].normal_W : m.view_W);
   Refine(nearest, m);
 }
 
 void StreamingMesher::Refine(uint32_t id, const Measurement& m) {
   Vertex& v = vertices_[id];
-  v.view_sum_W += m.view_W;
   v.information += 1.0f / (m.sigma_m * m.sigma_m);
-  v.measurements = std::min(v.measurements + 1, 0xffff);
+  v.measurements = static_cast<uint16_t>(std::min(v.measurements + 1, 0xffff));
   v.last_scan = static_cast<uint16_t>(scan_.scan);
-  if (v.state != Vertex::State::kReal) return;
+  if (v.state != Vertex::State::kReal) {
+    v.normal_W += m.view_W;
+    return;
+  }
   v.best_cosine = std::max(v.best_cosine, v.normal_W.dot(m.view_W));
   MarkForPublishing(id);
 }
@@ -130,7 +154,9 @@ void StreamingMesher::MarkForStar(uint32_t id) {
 }
 
 void StreamingMesher::MarkStarsAround(uint32_t id) {
-  const Eigen::Vector3f p_W = vertices_[id].p_W;
+  Vertex& v = vertices_[id];
+  const Eigen::Vector3f p_W = v.star_p_W = v.p_W;
+  for (int i = 0; i < 3; ++i) v.star_normal_W[i] = static_cast<int16_t>(std::lround(kNormalUnit * v.normal_W[i]));
   const float squared_reach = settings_.triangulation.max_edge_m * settings_.triangulation.max_edge_m;
   vertices_.ForEachNear(p_W, settings_.triangulation.max_edge_m, [&](uint32_t other) {
     const Vertex& w = vertices_[other];
@@ -139,9 +165,8 @@ void StreamingMesher::MarkStarsAround(uint32_t id) {
 }
 
 void StreamingMesher::MarkForPublishing(uint32_t id) {
-  if (id >= in_publish_due_.size()) in_publish_due_.resize(id + 1, 0);
-  if (in_publish_due_[id] != 0) return;
-  in_publish_due_[id] = 1;
+  if (vertices_[id].publish_due) return;
+  vertices_[id].publish_due = true;
   publish_due_.push_back(id);
 }
 
@@ -170,14 +195,14 @@ void StreamingMesher::FitDueVertices() {
 
 void StreamingMesher::FitPending(uint32_t id) {
   Vertex& v = vertices_[id];
+  const Eigen::Vector3f view_W = v.normal_W.normalized();
   samples_.clear();
-  measurements_.Gather(v.anchor_W, settings_.fit.radius_m, v.view_sum_W.normalized(), settings_.founding_cosine,
-                       samples_);
-  const auto guess = EstimateNormal(samples_, v.anchor_W, v.view_sum_W, settings_.fit);
+  measurements_.Gather(v.anchor_W, settings_.fit.radius_m, view_W, settings_.founding_cosine, samples_);
+  const auto guess = EstimateNormal(samples_, v.anchor_W, view_W, settings_.fit);
   if (!guess) return;
   const auto fit = FitSurface(samples_, v.anchor_W, v.anchor_W, *guess, settings_.fit);
-  const float view_length = v.view_sum_W.norm();
-  if (!fit || fit->normal_W.dot(v.view_sum_W) < std::cos(settings_.max_incidence_rad) * view_length) return;
+  if (!fit || fit->normal_W.dot(view_W) < std::cos(settings_.max_incidence_rad)) return;
+  if (fit->near_share < settings_.least_near_share) return;
   if (!HasRoomFor(id, *fit)) {
     vertices_.Remove(id);
     return;
@@ -186,10 +211,9 @@ void StreamingMesher::FitPending(uint32_t id) {
   ++real_vertices_;
   v.support = fit->measurements;
   v.normal_W = fit->normal_W;
-  v.best_cosine = fit->normal_W.dot(v.view_sum_W) / view_length;
+  v.best_cosine = fit->normal_W.dot(view_W);
   vertices_.Move(id, fit->p_W);
-  v.anchor_W = v.star_p_W = v.p_W;
-  v.star_normal_W = v.normal_W;
+  v.anchor_W = v.p_W;
   MarkStarsAround(id);
   MarkForPublishing(id);
 }
@@ -222,12 +246,10 @@ void StreamingMesher::FitReal(uint32_t id) {
   v.support = fit->measurements;
   v.normal_W = fit->normal_W;
   vertices_.Move(id, fit->p_W);
+  const Eigen::Vector3f star_normal_W(v.star_normal_W[0], v.star_normal_W[1], v.star_normal_W[2]);
   const bool moved = (v.p_W - v.star_p_W).norm() > settings_.star_moved_m;
-  const bool turned = v.normal_W.dot(v.star_normal_W) < std::cos(settings_.star_turned_rad);
-  if (!moved && !turned) return;
-  v.star_p_W = v.p_W;
-  v.star_normal_W = v.normal_W;
-  MarkStarsAround(id);
+  const bool turned = v.normal_W.dot(star_normal_W) < kNormalUnit * std::cos(settings_.star_turned_rad);
+  if (moved || turned) MarkStarsAround(id);
 }
 
 void StreamingMesher::TriangulateDueVertices() {
@@ -249,27 +271,19 @@ MeshDelta StreamingMesher::TakeDelta() {
 void StreamingMesher::CollectVertices(MeshDelta& delta) {
   std::sort(publish_due_.begin(), publish_due_.end());
   std::vector<uint32_t> held_back;
-  published_.resize(vertices_.size());
   for (uint32_t id : publish_due_) {
-    const Vertex& v = vertices_[id];
-    MeshVertex now{id,
-                   v.p_W,
-                   v.normal_W,
-                   1.0f / std::sqrt(v.information),
-                   std::acos(std::clamp(v.best_cosine, -1.0f, 1.0f)),
-                   static_cast<uint16_t>(v.measurements),
-                   v.first_scan,
-                   v.last_scan};
-    MeshVertex& before = published_[id];
-    const bool noticeable = before.measurements == 0 || (now.p_W - before.p_W).norm() > settings_.moved_noticeably_m;
+    Vertex& v = vertices_[id];
+    const bool noticeable = !v.published || (v.p_W - v.published_p_W).norm() > settings_.moved_noticeably_m;
     if (!noticeable && !scan_ended_) {
       held_back.push_back(id);
       continue;
     }
-    in_publish_due_[id] = 0;
-    if (now == before) continue;
-    before = now;
-    delta.vertices.push_back(now);
+    v.publish_due = false;
+    v.published = true;
+    v.published_p_W = v.p_W;
+    delta.vertices.push_back({id, v.p_W, v.normal_W, 1.0f / std::sqrt(v.information),
+                              std::acos(std::clamp(v.best_cosine, -1.0f, 1.0f)), v.measurements, v.first_scan,
+                              v.last_scan});
   }
   publish_due_ = std::move(held_back);
 }

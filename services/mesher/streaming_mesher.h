@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "common/geometry/mesh_delta.h"
@@ -27,6 +28,8 @@ struct StreamingMesherSettings {
   float founding_cosine = 0.8f;
   /// A vertex is refined by samples whose views make an angle with its normal that has at least this cosine.
   float sample_cosine = 0.15f;
+  /// A vertex is founded where at least this share of the weight of its surface lies within R_n / 2.
+  float least_near_share = 0.25f;
   /// A surface seen only more obliquely than this is no surface, but points in the air at a depth edge.
   float max_incidence_rad = 1.40f;
   /// A vertex is fitted when the sensor has moved on by this since the first measurement near it, so that its
@@ -35,6 +38,9 @@ struct StreamingMesherSettings {
   double fit_lag_m = 0.010;
   double star_lag_m = 0.008;
   int64_t lag_stripes = 25;
+  /// Measurements that founded nothing by the end of their scan, and have no surface within R_n so many stripes later,
+  /// are forgotten.
+  int64_t forget_stripes = 2000;
   float refit_share = 0.1f;       ///< A surface is fitted again when this share of its support has come near since.
   float star_moved_m = 0.0001f;   ///< Stars are made anew when a vertex moved further than this,
   float star_turned_rad = 0.05f;  ///< or turned further than this.
@@ -91,6 +97,7 @@ class StreamingMesher {
   bool IsAcceptable(const Stripe& stripe) const;
   void BeginScan(int32_t scan);
   void EndScan();
+  void ForgetUnsupported();
   void AddRanges(const Stripe& stripe);
   void AddMeasurement(const Measurement& m);
   void Refine(uint32_t id, const Measurement& m);
@@ -122,10 +129,14 @@ class StreamingMesher {
   std::vector<uint32_t> due_;  // Taken out of a queue.
   std::vector<uint32_t> pending_, publish_due_;
   int64_t real_vertices_ = 0;
+  /// Where measurements founded nothing, and when.
+  struct Unsupported {
+    Eigen::Vector3f p_W;
+    int64_t stripes;
+  };
+  std::deque<Unsupported> unsupported_;
   Eigen::Vector3d last_p_WS_ = Eigen::Vector3d::Zero();
   LagQueue::Moment now_;
-  std::vector<MeshVertex> published_;  // By number, as last published; measurements 0: not published.
-  std::vector<uint8_t> in_publish_due_;
   std::vector<Sample> samples_;
 };
 

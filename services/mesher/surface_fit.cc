@@ -44,6 +44,7 @@ struct Pass {
   std::array<float, 15> m{};  // 1 x y xx xy yy xxx xxy xyy yyy xxxx xxxy xxyy xyyy yyyy
   Vector6 right_side = Vector6::Zero();
   float squared_residual = 0.0f;
+  float near_weight = 0.0f;
   int measurements = 0;
 
   void Add(const Eigen::Vector3f& p, float w, float residual, int count) {
@@ -108,10 +109,13 @@ Pass MakePass(std::span<const Sample> samples, const Eigen::Vector3f& anchor_W, 
   for (const Sample& s : samples) {
     const Eigen::Vector3f p = to_L * (s.p_W - anchor_W);
     const float near = CalcKernel(p.squaredNorm(), squared_radius);
-    if (near <= 0.0f || s.view_sum_W.dot(surface.R_WL.col(2)) <= 0.0f) continue;
+    const float cosine = s.view_W.dot(surface.R_WL.col(2));
+    if (near <= 0.0f || cosine <= 0.0f) continue;
     const float residual = p.z() - surface.CalcHeight(p.x(), p.y());
-    const float w = s.weight * near * CalcKernel(residual * residual, squared_tolerance);
-    if (w > 0.0f) pass.Add(p, w, residual, s.measurements);
+    const float w = cosine * s.weight * near * CalcKernel(residual * residual, squared_tolerance);
+    if (w <= 0.0f) continue;
+    pass.Add(p, w, residual, s.measurements);
+    if (p.squaredNorm() < 0.25f * squared_radius) pass.near_weight += w;
   }
   return pass;
 }
@@ -172,7 +176,8 @@ std::optional<SurfaceFit> FitSurface(std::span<const Sample> samples, const Eige
   const float height = surface.q[5] / kMillimetre;
   if (!(std::abs(height) <= settings.height_tolerance_m)) return std::nullopt;
   return SurfaceFit{anchor_W + surface.R_WL.col(2) * height, (surface.R_WL * surface.CalcNormal_L()).normalized(),
-                    std::sqrt(pass.squared_residual / pass.m[0]) / kMillimetre, pass.measurements};
+                    std::sqrt(pass.squared_residual / pass.m[0]) / kMillimetre, pass.measurements,
+                    pass.near_weight / pass.m[0]};
 }
 
 }  // namespace nbs

@@ -5,7 +5,7 @@ namespace nbs {
 uint32_t VertexStore::Insert(const Measurement& m, int32_t scan) {
   uint32_t id = size();
   if (free_.empty()) {
-    vertices_.emplace_back();
+    vertices_.Append();
   } else {
     id = free_.back();
     free_.pop_back();

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "services/mesher/brick_grid.h"
-#include "services/mesher/local_star.h"
 #include "services/mesher/measurement_map.h"
+#include "services/mesher/paged_vector.h"
 
 namespace nbs {
 
@@ -17,28 +18,27 @@ struct Vertex {
     kReal,     ///< Has a surface; may be in triangles.
   };
   State state = State::kFree;
-  bool fit_due = false;   ///< Measurements came near since the surface was fitted.
-  bool star_due = false;  ///< The vertex or its surroundings changed since the star was made.
-  Eigen::Vector3f anchor_W =
-      Eigen::Vector3f::Zero();  ///< Fixed point through which the vertex moves along its normal, metres.
-  Eigen::Vector3f p_W = Eigen::Vector3f::Zero();       ///< Metres.
-  Eigen::Vector3f normal_W = Eigen::Vector3f::Zero();  ///< Unit; zero while pending.
-  Eigen::Vector3f view_sum_W =
-      Eigen::Vector3f::Zero();  ///< Sum of the unit directions from which its own measurements were made.
-  Eigen::Vector3f star_p_W = Eigen::Vector3f::Zero();  ///< Position at which the stars around it were made.
-  Eigen::Vector3f star_normal_W = Eigen::Vector3f::Zero();
-  float information = 0.0f;   ///< Sum of 1/sigma^2 of its own measurements, 1/m^2.
-  float best_cosine = -1.0f;  ///< Of the incidence.
-  int32_t measurements = 0;   ///< Its own: those to which it was the nearest vertex.
-  int32_t support = 0;        ///< Measurements that carried the last fit,
-  int32_t fresh = 0;          ///< and those that came near since.
+  bool fit_due = false;      ///< Measurements came near since the surface was fitted.
+  bool star_due = false;     ///< The vertex or its surroundings changed since the star was made.
+  bool publish_due = false;  ///< Something changed since it was published.
+  bool published = false;
+  uint16_t measurements = 0;  ///< Its own: those to which it was the nearest vertex; 65535 at most.
+  /// Normal at which the stars around it were made, in 1/32767.
+  std::array<int16_t, 3> star_normal_W{};
+  Eigen::Vector3f p_W = Eigen::Vector3f::Zero();  ///< Metres.
+  /// Unit, towards the side that was seen. While pending, the sum of the unit directions from which it was measured.
+  Eigen::Vector3f normal_W = Eigen::Vector3f::Zero();
+  /// Fixed point through which the vertex moves along its normal, metres.
+  Eigen::Vector3f anchor_W = Eigen::Vector3f::Zero();
+  Eigen::Vector3f star_p_W = Eigen::Vector3f::Zero();       ///< Position at which the stars around it were made.
+  Eigen::Vector3f published_p_W = Eigen::Vector3f::Zero();  ///< Position as last published.
+  float information = 0.0f;                                 ///< Sum of 1/sigma^2 of its own measurements, 1/m^2.
+  float best_cosine = -1.0f;                                ///< Of the incidence.
+  int32_t support = 0;                                      ///< Measurements that carried the last fit,
+  int32_t fresh = 0;                                        ///< and those that came near since.
   uint16_t first_scan = 0;
   uint16_t last_scan = 0;
   int32_t next_in_cell = BrickGrid::kNone;
-  LocalStar star;
-
-  /// The side from which it is seen: the normal, or while there is none the sum of the views.
-  const Eigen::Vector3f& side_W() const { return state == State::kReal ? normal_W : view_sum_W; }
 };
 
 /// The vertices by number, and by place. Numbers are reused, last freed first.
@@ -72,7 +72,7 @@ class VertexStore {
   void Unlink(uint32_t id);
 
   BrickGrid grid_;
-  std::vector<Vertex> vertices_;
+  PagedVector<Vertex> vertices_;
   std::vector<uint32_t> free_;
 };
 

@@ -75,6 +75,24 @@ TEST(BrickGrid, ClearedCellIsNotVisited) {
   grid.ForEachCell(p, 0.01f, [](int32_t) { ADD_FAILURE(); });
 }
 
+TEST(BrickGrid, EmptiedAndFilledAgainHoldsTheNew) {
+  Filled filled;
+  for (const auto& [key, head] : filled.oracle) {
+    const auto [x, y, z] = key;
+    const Eigen::Vector3f p = kCell_m * (Eigen::Vector3i(x, y, z).cast<float>() + Eigen::Vector3f::Constant(0.5f));
+    filled.grid.Clear(p);
+    filled.grid.Clear(p);  // Once more is no harm.
+    EXPECT_EQ(filled.grid.Find(p), BrickGrid::kNone);
+    const Eigen::Vector3f elsewhere = p + Eigen::Vector3f(1.0f, 0.0f, 0.0f);
+    filled.grid.Touch(elsewhere) = head;
+    EXPECT_EQ(filled.grid.Find(elsewhere), head);
+  }
+  size_t visited = 0;
+  filled.grid.ForEachCell(Eigen::Vector3f(1.0f, 0.0f, 0.0f), 0.04f, [&](int32_t) { ++visited; });
+  EXPECT_EQ(visited, filled.oracle.size());
+  filled.grid.ForEachCell(Eigen::Vector3f::Zero(), 0.04f, [&](int32_t) { ADD_FAILURE(); });
+}
+
 TEST(BrickGrid, CellWithoutSizeIsRefused) { EXPECT_THROW(BrickGrid(0.0f), std::invalid_argument); }
 
 }  // namespace

@@ -193,6 +193,37 @@ TEST(StreamingMesher, SingleOutliersNeverEnterTheMesh) {
   EXPECT_EQ(CalcLoopLengths(bench.mesher.topology().triangles()).size(), 1u);
 }
 
+TEST(StreamingMesher, MeasurementsThatNeverGetSupportAreForgotten) {
+  StreamingMesherSettings settings;
+  settings.forget_stripes = 100;
+  const auto count_after = [&](int stripes_between) {
+    StreamingMesher mesher({}, settings);
+    const auto slab = ScanSolid(MakeSquareSlab(), {}, MakeDownSweep(0, 0.12, 0.3));
+    int32_t scan = 0, index = 0;
+    const auto add = [&](Stripe stripe) {
+      stripe.scan = scan;
+      stripe.index = index++;
+      mesher.AddStripe(stripe);
+    };
+    const auto close = [&] {
+      add(slab.back());
+      ++scan;
+      index = 0;
+    };
+    add(slab[60]);
+    close();
+    Stripe empty = slab[61];
+    for (float& range : empty.ranges_m) range = 0.0f;
+    for (int i = 0; i < stripes_between; ++i) add(empty);
+    close();
+    add(slab[61]);  // With stripe 60 enough for a surface, alone it is not.
+    close();
+    return mesher.CalcScanFigures().vertices;
+  };
+  EXPECT_GT(count_after(50), 50);
+  EXPECT_EQ(count_after(150), 0);
+}
+
 TEST(StreamingMesher, OneStripeAloneMakesNoSurface) {
   Bench bench;
   auto stripes = ScanSolid(MakeSquareSlab(), {}, MakeDownSweep(0, 0.12, 0.3));

@@ -87,6 +87,32 @@ TEST(SurfaceFit, TooFewMeasurementsGiveNoSurface) {
   EXPECT_FALSE(FitFromScratch(samples, Vector3f::Zero()));
 }
 
+TEST(SurfaceFit, ObliquelySeenSamplesCountByTheCosine) {
+  auto samples = SampleHeights([](double, double) { return 0.0; }, 0.0);
+  auto upper = SampleHeights([](double, double) { return 0.001; }, 0.0);
+  for (Sample& s : upper) s.view_W = Vector3f(std::sqrt(0.75f), 0.0f, 0.5f);
+  samples.insert(samples.end(), upper.begin(), upper.end());
+  const auto fit = FitFromScratch(samples, Vector3f::Zero());
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->p_W.z(), 0.001f / 3.0f, 0.00005f);
+}
+
+TEST(SurfaceFit, PointBesideASurfaceHasLittleWeightNear) {
+  auto samples = SampleHeights([](double, double) { return 0.0; }, 0.0);
+  const auto inside = FitFromScratch(samples, Vector3f::Zero());
+  ASSERT_TRUE(inside);
+  EXPECT_GT(inside->near_share, 0.5f);
+  std::erase_if(samples, [](const Sample& s) { return s.p_W.x() > -0.0025f; });
+  const auto rim = FitFromScratch(samples, Vector3f(-0.0028f, 0, 0));
+  ASSERT_TRUE(rim);
+  EXPECT_GT(rim->near_share, 0.5f);
+  samples.push_back({Vector3f::Zero(), Vector3f::UnitZ(), 16.0f, 1});
+  for (Sample& s : samples) s.measurements = 2;
+  const auto beside = FitFromScratch(samples, Vector3f::Zero());
+  ASSERT_TRUE(beside);
+  EXPECT_LT(beside->near_share, 0.5f);
+}
+
 TEST(SurfaceFit, SurfaceThatPassesTheAnchorFarOffIsNone) {
   const auto samples = SampleHeights([](double, double) { return 0.0; }, 0.0);
   EXPECT_FALSE(FitSurface(samples, Vector3f(0, 0, 0.0045f), Vector3f(0, 0, 0.0f), Vector3f::UnitZ(), {}));
