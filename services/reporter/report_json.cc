@@ -35,6 +35,7 @@ ordered_json MakeScan(const ScanRecord& scan) {
   json["completeness"] = scan.completeness;
   json["rim_length_m"] = scan.rim_length_m;
   json["triangles"] = scan.triangles;
+  json["edges"] = scan.edges;
   json["coverage"] = scan.evaluation ? ordered_json(scan.evaluation->coverage) : ordered_json(nullptr);
   json["robot_time_s"] = 1e-6 * static_cast<double>(scan.scanned_utime_us);
   json["candidates"] = scan.candidates;

@@ -108,6 +108,7 @@ void ReporterNode::Fold(const MeshScan& figures) {
   current_.completeness = figures.completeness;
   current_.rim_length_m = figures.rim_length_m;
   current_.triangles = figures.triangles;
+  current_.edges = figures.edges;
   record_.refused_measurements = figures.refused;
   if (evaluator_) current_.evaluation = evaluator_(mesh_.MakeCompactMesh());
   if (progress_ != nullptr) {

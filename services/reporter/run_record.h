@@ -30,6 +30,7 @@ struct ScanRecord {
   double completeness = 0.0;  ///< Eq. 3, after the scan.
   double rim_length_m = 0.0;
   int64_t triangles = 0;
+  int64_t edges = 0;
   std::optional<Evaluation> evaluation;
   int candidates = 0;
   std::array<int, kVerdicts> verdicts{};  ///< Candidates by verdict, all rounds before this scan.

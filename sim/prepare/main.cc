@@ -15,10 +15,17 @@ int main(int argc, char** argv) {
   app.add_option("--max-scans", request.max_scans, "Ends after so many scans")->capture_default_str();
   app.add_option("--seed", request.seed, "Seed of everything random")->capture_default_str();
   app.add_option("--rate", request.rate, "max or realtime")->capture_default_str();
-  app.add_option("--out", request.out, "The run folder to be made")->required();
+  app.add_option("--out", request.out, "The run folder to be made");
   app.add_option("--version", request.version, "Version of the software, for the record");
+  bool list_methods = false;
+  app.add_flag("--list-methods", list_methods,
+               "Prints the methods, each with what ends its runs, and does nothing else");
   try {
     app.parse(argc, argv);
+    if (list_methods) {
+      std::cout << nbs::ListMethods();
+      return 0;
+    }
     nbs::PrepareRun(request);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);

@@ -94,7 +94,19 @@ void MakeFolders(const std::filesystem::path& folder) {
   }
 }
 
+/// Section IV-B of the paper: S and B have ends of their own.
+std::string_view FindEnd(std::string_view method) {
+  if (method == "S") return "settled";
+  return method == "B" ? "nothing_left" : "completeness";
+}
+
 }  // namespace
+
+std::string ListMethods() {
+  std::string list;
+  for (std::string_view method : kMethods) list += std::string(method) + " " + std::string(FindEnd(method)) + "\n";
+  return list;
+}
 
 RunConfig PrepareRun(const RunRequest& request) {
   CheckNumbers(request);

@@ -23,6 +23,10 @@ struct RunRequest {
   std::string version;
 };
 
+/// The methods there are, a line each: name, and what ends a run of it: `completeness` of the mesh, `nothing_left` to
+/// scan, or the unknown space has `settled`.
+std::string ListMethods();
+
 /// Makes a run folder that services can start on: checks the request, loads cell and object, places voxel space and
 /// first path, and writes OUT/{run.yaml, streams/, logs/}.
 ///

@@ -23,7 +23,8 @@ class Format(unittest.TestCase):
         self.assertEqual((0, []), (check.returncode, faults), "run clang-format -i on these files")
 
     def test_of_lines_has_no_trailing_space(self):
-        files = list_sources() + sorted((SOURCE / "scripts").iterdir()) + sorted((SOURCE / "tests").rglob("*.py"))
+        scripts = sorted(file for file in (SOURCE / "scripts").rglob("*") if file.is_file())
+        files = list_sources() + scripts + sorted((SOURCE / "tests").rglob("*.py"))
         faults = [f"{file}:{number}" for file in files for number, line in enumerate(file.read_text().splitlines(), start=1) if line != line.rstrip()]
         self.assertEqual([], faults)
 

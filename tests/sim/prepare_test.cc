@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <sstream>
 
 #include "common/geometry/mesh_io.h"
 #include "common/runtime/error.h"
@@ -39,6 +40,20 @@ class Prepare : public ::testing::Test {
   std::filesystem::path folder_;
   RunRequest request_;
 };
+
+TEST_F(Prepare, AcceptsEveryMethodThatItLists) {
+  std::istringstream list(ListMethods());
+  std::string method, end;
+  int count = 0;
+  while (list >> method >> end) {
+    request_.method = method;
+    request_.out = folder_ / ("run" + std::to_string(count++));
+    EXPECT_EQ(Refusal(), "accepted") << method;
+    EXPECT_THAT(end, ::testing::AnyOf("completeness", "nothing_left", "settled")) << method;
+  }
+  EXPECT_EQ(count, 5);
+  EXPECT_THAT(ListMethods(), HasSubstr("BH/IG completeness\n"));
+}
 
 TEST_F(Prepare, MakesAFolderThatServicesCanRead) {
   request_.seed = 7;

@@ -32,7 +32,7 @@ TEST(ReportJson, HoldsEveryKeyOfTheContract) {
         "completeness", "coverage", "observable_coverage", "rmse_mm", "rim_length_m", "triangles", "wall_s", "scans"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
-  for (const char* key : {"scan", "source", "gain", "path_length_m", "stripes", "selection_s", "completeness",
+  for (const char* key : {"scan", "source", "gain", "path_length_m", "stripes", "selection_s", "completeness", "edges",
                           "coverage", "candidates", "verdicts"}) {
     EXPECT_TRUE(json["scans"][0].contains(key)) << key;
   }
