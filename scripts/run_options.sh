@@ -5,6 +5,7 @@ print_run_options() {
   cat <<'USAGE'
   --object NAME|FILE     statue (made by the project; default) or a mesh of your own: PLY, STL, OBJ, in metres
   --method METHOD        BH/IG (default), B/IG, B, S/IG, S
+  --gain RULE            by what candidates are rated: surface, sum (eq. 2), near_surface, mean, per_second, unknown_count (default: the method's own)
   --cell NAME            a cell of sim/cells, or a file (default: free)
   --completeness C       wanted mesh completeness, 0 to 1 (default: 0.9875)
   --max-scans N          ends after that many scans (default: 30)
@@ -30,7 +31,7 @@ take_run_option() {
       run_seed=$2
       ;;
     --out) run_out=$2 && return ;;
-    --cell | --completeness | --max-scans | --rate) ;;
+    --gain | --cell | --completeness | --max-scans | --rate) ;;
     *) return 1 ;;
   esac
   nbs_prepare_options+=("$1" "$2")

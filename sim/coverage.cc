@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/directions.h"
+#include "common/geometry/directions.h"
 
 namespace nbs {
 namespace {

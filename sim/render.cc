@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "sim/directions.h"
+#include "common/geometry/directions.h"
 #include "sim/mesh_measures.h"
 
 namespace nbs {

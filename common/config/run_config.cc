@@ -8,6 +8,7 @@
 
 #include "common/config/cell_config.h"
 #include "common/config/suggestion.h"
+#include "common/planning/method.h"
 #include "common/runtime/error.h"
 
 namespace nbs {
@@ -65,6 +66,7 @@ std::string FormatRun(const RunConfig& config) {
   add("run_id", std::to_string(config.run_id));
   add("version", QuoteYaml(config.version));
   add("method", QuoteYaml(config.method));
+  add("gain", QuoteYaml(config.gain));
   add("object", QuoteYaml(config.object));
   add("object_file", QuoteYaml(config.object_file.string()));
   add("seed", std::to_string(config.seed));
@@ -89,8 +91,8 @@ RunConfig ReadRunConfig(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "run.yaml";
   const YamlTree tree = ReadYamlTree(file);
   const StrictReader reader(file, tree,
-                            {"name", "run_id", "version", "method", "object", "object_file", "seed", "completeness",
-                             "max_scans", "rate", "cell", "grid", "first_path"},
+                            {"name", "run_id", "version", "method", "gain", "object", "object_file", "seed",
+                             "completeness", "max_scans", "rate", "cell", "grid", "first_path"},
                             StrictReader::Missing::kIsAnError);
   RunConfig config;
   config.folder = folder;
@@ -98,6 +100,7 @@ RunConfig ReadRunConfig(const std::filesystem::path& folder) {
   reader.Read("run_id", config.run_id);
   reader.Read("version", config.version);
   reader.ReadChoice("method", "method", MethodNames(), config.method);
+  reader.ReadChoice("gain", "gain rule", GainRuleNames(), config.gain);
   reader.Read("object", config.object);
   std::string object_file;
   reader.Read("object_file", object_file);

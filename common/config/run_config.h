@@ -45,6 +45,7 @@ struct RunConfig {
   int64_t run_id = 0;   ///< Separates runs on a bus; does not influence any result.
   std::string version;  ///< Of the software that made the run.
   std::string method = "BH/IG";
+  std::string gain = "surface";       ///< Name of the gain rule by which candidates are rated.
   std::string object = "statue";      ///< Name or file as the user gave it; empty: a real object, no truth known.
   std::filesystem::path object_file;  ///< Absolute path of the mesh; empty: the built-in statue, or no truth.
   uint64_t seed = 1;

@@ -53,9 +53,4 @@ std::string ExplainUnknown(std::string_view what, std::string_view word, std::sp
   return text;
 }
 
-std::span<const std::string_view> MethodNames() {
-  static constexpr std::array<std::string_view, 5> kNames = {"BH/IG", "B/IG", "B", "S/IG", "S"};
-  return kNames;
-}
-
 }  // namespace nbs

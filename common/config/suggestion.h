@@ -16,7 +16,4 @@ std::optional<std::string_view> FindSuggestion(std::string_view word, std::span<
 /// nothing is near, a list of the choices.
 std::string ExplainUnknown(std::string_view what, std::string_view word, std::span<const std::string_view> choices);
 
-/// The methods of the paper: BH/IG, B/IG, B, S/IG, S.
-std::span<const std::string_view> MethodNames();
-
 }  // namespace nbs

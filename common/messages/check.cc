@@ -89,6 +89,7 @@ std::string Fault(const VoxelDelta& delta) {
 }
 
 std::string Fault(const Plan& plan) {
+  if (plan.unknown_cells < 0) return "the count of unknown cells is negative";
   if (!IsSound(plan.chosen)) return "the chosen candidate is unsound";
   if (!IsCount({plan.trajectory.utime_us, plan.trajectory.scan})) return "the trajectory's time or scan is negative";
   return AreSound(plan.trajectory.points) ? "" : "a point of the trajectory is unsound";

@@ -92,7 +92,7 @@ void Fields(Wire& wire, Field<Wire, MeshTriangle> triangle) {
 template <typename Wire>
 void Fields(Wire& wire, Field<Wire, PlanRequest> request) {
   wire.template Integer<int32_t>(request.scan);
-  wire.Enum(request.mode, 3);
+  wire.Enum(request.mode, kPlanModes);
 }
 
 template <typename Wire>
@@ -105,7 +105,7 @@ template <typename Wire>
 void Fields(Wire& wire, Field<Wire, RunState> state) {
   wire.template Integer<int32_t>(state.scan);
   wire.Enum(state.phase, 3);
-  wire.Enum(state.mode, 3);
+  wire.Enum(state.mode, kPlanModes);
   wire.Bool(state.failed);
   wire.String(state.end_reason);
   wire.String(state.detail);
@@ -176,9 +176,10 @@ void Fields(Wire& wire, Field<Wire, VoxelDelta> delta) {
 template <typename Wire>
 void Fields(Wire& wire, Field<Wire, Plan> plan) {
   wire.template Integer<int32_t>(plan.scan);
-  wire.Enum(plan.mode, 3);
+  wire.Enum(plan.mode, kPlanModes);
   wire.Bool(plan.found);
   wire.String(plan.reason);
+  wire.template Integer<int64_t>(plan.unknown_cells);
   Fields<Wire>(wire, plan.chosen);
   wire.template Integer<int64_t>(plan.trajectory.utime_us);
   wire.template Integer<int32_t>(plan.trajectory.scan);

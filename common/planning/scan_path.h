@@ -95,7 +95,9 @@ enum class PlanMode : uint8_t {
   kFirst = 0,     ///< The cell's first scan path.
   kBoundary = 1,  ///< Add boundary candidates from the newest scan to the stack (section III-A).
   kHole = 2,      ///< Drop boundary candidates, detect holes if not yet done, scan only holes (section III-B).
+  kSphere = 3,    ///< Viewpoints on a sphere around the object (the S methods of section IV-B).
 };
+inline constexpr int kPlanModes = 4;
 
 struct PlanRequest {
   int64_t utime_us = 0;
@@ -112,9 +114,10 @@ struct Plan {
   int32_t scan = 0;
   PlanMode mode = PlanMode::kFirst;
   bool found = false;
-  std::string reason;     ///< Why nothing was found; empty when found.
-  RatedCandidate chosen;  ///< Valid when found.
-  Trajectory trajectory;  ///< Valid when found.
+  std::string reason;         ///< Why nothing was found; empty when found.
+  int64_t unknown_cells = 0;  ///< Voxels that were never observed when the plan was made.
+  RatedCandidate chosen;      ///< Valid when found.
+  Trajectory trajectory;      ///< Valid when found.
 };
 
 /// Every candidate of one round, in parts that fit a datagram.
@@ -144,10 +147,10 @@ struct RunState {
   int32_t scan = 0;  ///< Planned or scanned now; the number of scans when finished.
   RunPhase phase = RunPhase::kPlanning;
   PlanMode mode = PlanMode::kFirst;
-  bool failed = false;  ///< Finished because something broke; the exit code is then 2.
-  std::string
-      end_reason;  ///< Set when finished: completeness_reached, scan_limit, nothing_reachable, no_candidates, refused.
-  std::string detail;  ///< One sentence.
+  bool failed = false;     ///< Finished because something broke; the exit code is then 2.
+  std::string end_reason;  ///< Set when finished: completeness_reached, scan_limit, unknown_settled, nothing_reachable,
+                           ///< no_candidates, refused.
+  std::string detail;      ///< One sentence.
 };
 
 }  // namespace nbs

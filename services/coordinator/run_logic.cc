@@ -7,8 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "common/runtime/error.h"
-
 namespace nbs {
 namespace {
 
@@ -44,16 +42,32 @@ RunStep Execute(RunLogicState state, const Plan& plan) {
       {RunState{state.utime_us, state.scan, RunPhase::kScanning, state.mode, false, {}, {}}, std::move(trajectory)}};
 }
 
-RunStep GiveUp(const RunLogicState& state, const Plan& plan) {
+std::string ExplainCompleteness(const RunSettings& settings, const MeshScan& mesh) {
+  return fmt::format("Mesh completeness {:.4f} of {:.4f} wanted.", mesh.completeness, settings.completeness);
+}
+
+RunStep GiveUp(const RunSettings& settings, const RunLogicState& state, const Plan& plan) {
   const bool first = state.mode == PlanMode::kFirst;
+  if (settings.end == EndRule::kCompleteness && state.last_scan &&
+      state.last_scan->completeness >= settings.completeness) {
+    return Finish(state, state.scan, false, "completeness_reached", ExplainCompleteness(settings, *state.last_scan));
+  }
   const bool no_candidates = plan.reason.find(kStackIsEmpty) != std::string::npos;
   return Finish(state, state.scan, first, no_candidates ? "no_candidates" : "nothing_reachable", plan.reason);
 }
 
 PlanMode ChooseMode(const RunSettings& settings, const RunLogicState& state) {
-  if (!settings.holes) return PlanMode::kBoundary;
+  if (settings.search == CandidateSearch::kSphere) return PlanMode::kSphere;
+  if (settings.search == CandidateSearch::kBoundary) return PlanMode::kBoundary;
   const bool settled = state.settled >= settings.settled_scans;
   return state.mode == PlanMode::kHole || settled ? PlanMode::kHole : PlanMode::kBoundary;
+}
+
+/// Whether the last scan hardly changed the count of unknown voxels; the first never is the last.
+bool IsUnknownSettled(const RunSettings& settings, const RunLogicState& state, const Plan& plan) {
+  if (settings.end != EndRule::kUnknownSettled || state.scan < 2) return false;
+  const auto before = static_cast<double>(state.unknown_cells);
+  return before - static_cast<double>(plan.unknown_cells) < settings.settled_unknown * before;
 }
 
 /// Share of edges that a scan added to the mesh before it.
@@ -64,18 +78,18 @@ double CalcGrowth(const MeshScan& before, const MeshScan& after) {
 }  // namespace
 
 RunSettings MakeRunSettings(const RunConfig& config) {
-  if (config.method != "BH/IG" && config.method != "B/IG") {
-    throw ConfigError("Unknown method \"" + config.method + "\": choose BH/IG or B/IG.");
-  }
+  const Method& method = FindMethod(config.method);
   RunSettings settings;
   settings.completeness = config.completeness;
   settings.max_scans = config.max_scans;
-  settings.holes = config.method == "BH/IG";
+  settings.search = method.search;
+  settings.end = method.end;
   return settings;
 }
 
 bool IsComplete(const RunSettings& settings, const MeshScan& before, const MeshScan& after) {
-  return after.completeness >= settings.completeness && CalcGrowth(before, after) < settings.complete_growth;
+  return settings.end == EndRule::kCompleteness && after.completeness >= settings.completeness &&
+         CalcGrowth(before, after) < settings.complete_growth;
 }
 
 bool HasHardlyChanged(const RunSettings& settings, const MeshScan& before, const MeshScan& after) {
@@ -91,9 +105,16 @@ RunStep Advance(const RunSettings& settings, const RunLogicState& state, const P
   if (plan.mode != state.mode) throw std::logic_error("coordinator: the plan is of another mode than asked for");
   RunLogicState next = state;
   next.utime_us = std::max(next.utime_us, plan.utime_us);
+  next.unknown_cells = plan.unknown_cells;
+  if (plan.found && IsUnknownSettled(settings, state, plan)) {
+    return Finish(next, state.scan, false, "unknown_settled",
+                  fmt::format("{} voxels are still unknown; {} were before the last scan.", plan.unknown_cells,
+                              state.unknown_cells));
+  }
   if (plan.found) return Execute(next, plan);
-  if (state.mode == PlanMode::kBoundary && settings.holes) return AskForPlan(next, state.scan, PlanMode::kHole);
-  return GiveUp(next, plan);
+  if (state.mode == PlanMode::kBoundary && settings.search == CandidateSearch::kBoundaryAndHole)
+    return AskForPlan(next, state.scan, PlanMode::kHole);
+  return GiveUp(settings, next, plan);
 }
 
 RunStep Advance(const RunSettings& /*settings*/, const RunLogicState& state, const Execution& execution) {
@@ -115,8 +136,7 @@ RunStep Advance(const RunSettings& settings, const RunLogicState& state, const M
   next.last_scan = mesh;
   const int32_t scans = state.scan + 1;
   if (state.last_scan && IsComplete(settings, *state.last_scan, mesh)) {
-    return Finish(next, scans, false, "completeness_reached",
-                  fmt::format("Mesh completeness {:.4f} of {:.4f} wanted.", mesh.completeness, settings.completeness));
+    return Finish(next, scans, false, "completeness_reached", ExplainCompleteness(settings, mesh));
   }
   if (scans >= settings.max_scans) {
     return Finish(next, scans, false, "scan_limit",

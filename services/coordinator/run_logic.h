@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/config/run_config.h"
+#include "common/planning/method.h"
 #include "common/runtime/node.h"
 
 namespace nbs {
@@ -16,7 +17,10 @@ struct RunSettings {
   // The wanted completeness counts only once the surface has stopped growing: eq. 3 rises merely because n_total does.
   // A scan that adds this share to the edges does not end the run, nor does the first.
   double complete_growth = 0.01;
-  bool holes = true;  ///< The method has a hole phase (BH/IG); without, the run ends with the last boundary (B/IG).
+  CandidateSearch search = CandidateSearch::kBoundaryAndHole;
+  EndRule end = EndRule::kCompleteness;
+  /// kUnknownSettled: a scan that leaves more than 1 - this of the unknown voxels unknown was the last.
+  double settled_unknown = 0.005;
   // The mesh completeness "hardly changed" (section III) when this many boundary scans in a row each closed less than
   // `settled_closing` of what was missing, 1 - completeness, and added less than `settled_growth` to the edges of the
   // mesh.
@@ -27,7 +31,7 @@ struct RunSettings {
 
 /// Settings of a run.
 ///
-/// @throws ConfigError if the method is neither BH/IG nor B/IG.
+/// @throws std::invalid_argument if the method is unknown.
 RunSettings MakeRunSettings(const RunConfig& config);
 
 /// What the state machine waits for.
@@ -40,6 +44,7 @@ struct RunLogicState {
   PlanMode mode = PlanMode::kFirst;
   int64_t utime_us = 0;               ///< Latest time seen or given.
   std::optional<MeshScan> last_scan;  ///< The mesh after the last finished scan.
+  int64_t unknown_cells = 0;          ///< When the last plan was made.
   int settled = 0;                    ///< Boundary scans in a row after which the mesh had hardly changed.
 };
 
@@ -57,9 +62,10 @@ struct RunStep {
 RunStep Begin(const RunSettings& settings);
 
 /// The planner's answer: found, its trajectory goes to the robot. Nothing found among boundaries: the same scan is
-/// asked for again among holes, or the run ends if the method has none. Nothing found among holes: the run ends with
-/// no_candidates if the planner's reason contains kStackIsEmpty, otherwise with nothing_reachable. No first path: the
-/// run fails.
+/// asked for again among holes, or the run ends if the method has none. Nothing found elsewhere: the run ends with
+/// completeness_reached if the mesh is as complete as wanted, with no_candidates if the planner's reason contains
+/// kStackIsEmpty, otherwise with nothing_reachable. No first path: the run fails. Where the end rule is kUnknownSettled
+/// the run ends before a scan that follows one which hardly changed the count of unknown voxels.
 ///
 /// @throws std::logic_error if no plan, or that of another scan or mode, is awaited.
 RunStep Advance(const RunSettings& settings, const RunLogicState& state, const Plan& plan);
@@ -70,7 +76,7 @@ RunStep Advance(const RunSettings& settings, const RunLogicState& state, const P
 RunStep Advance(const RunSettings& settings, const RunLogicState& state, const Execution& execution);
 
 /// The mesh after the scan: the run ends if it is complete or the last scan is done, otherwise the next scan is asked
-/// for: among boundaries until the mesh has settled, then among holes for the rest of the run.
+/// for: on the sphere, or among boundaries until the mesh has settled, then among holes for the rest of the run.
 ///
 /// @throws std::logic_error if no mesh, or that of another scan, is awaited.
 RunStep Advance(const RunSettings& settings, const RunLogicState& state, const MeshScan& mesh);

@@ -91,10 +91,12 @@ std::vector<ScanPath> MakeChainPaths(const BoundarySurface& surface, const Bound
       const EstimatedSurface beyond = Extrapolate(*patch, step, settings);
       if (std::abs(beyond.turned_rad) > settings.max_turn_away_rad) continue;
       const Strip strip{beyond.p_W, beyond.normal_W, chord_W, extent};
-      paths.push_back(MakeStripPath(strip, {.about_along_rad = tilt}, profiler.standoff_m, settings.limits));
+      if (!settings.one_path_per_chain)
+        paths.push_back(MakeStripPath(strip, {.about_along_rad = tilt}, profiler.standoff_m, settings.limits));
       if (chain.length_m < settings.min_long_chain_m) continue;
       const Strip extended = ExtendToBox(strip, surface.box_W(), settings.overhang_m, settings.limits);
       paths.push_back(MakeStripPath(extended, {.about_along_rad = tilt}, profiler.standoff_m, settings.limits));
+      if (settings.one_path_per_chain) return paths;
     }
   }
   return paths;

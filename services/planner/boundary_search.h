@@ -25,9 +25,10 @@ struct BoundarySearchSettings {
   std::vector<double> tilts_rad = {
       0.0, 0.44, -0.44,
       0.96};  ///< Views turned about the chord; positive: looks back at the surface from beyond the border.
-  double min_long_chain_m = 0.05;  ///< From this length a chain also gets paths over the object's whole extent.
-  double alike_m = 0.02;           ///< Candidates nearer than this and …
-  double alike_rad = 0.12;         ///< … turned by less than this are one.
+  double min_long_chain_m = 0.05;   ///< From this length a chain also gets paths over the object's whole extent.
+  bool one_path_per_chain = false;  ///< Straight on at the middle step over the whole extent; short chains get none.
+  double alike_m = 0.02;            ///< Candidates nearer than this and …
+  double alike_rad = 0.12;          ///< … turned by less than this are one.
 };
 
 /// The surface beyond a boundary as the patch foretells it.

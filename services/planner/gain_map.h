@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/mapping/voxel_grid.h"
-#include "services/planner/gain_rule.h"
+#include "common/planning/gain_rule.h"
 
 namespace nbs {
 

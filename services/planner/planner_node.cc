@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "common/runtime/counter_random.h"
-#include "services/planner/boundary_search.h"
-#include "services/planner/hole_detection.h"
 #include "services/planner/motion_planning/map_clearance.h"
 
 namespace nbs {
@@ -48,9 +47,11 @@ PlannerNode::PlannerNode(const RunConfig& config, Clock clock, const PlannerSett
       clock_(std::move(clock)),
       next_input_(StreamOf<PlanRequest>()),
       voxels_(config.grid),
-      gain_(config.cell.profiler),
+      method_(FindMethod(config.method)),
+      rating_{FindGainRule(config.gain).value(), method_.by_gain, settings.gain_reach_m, settings.threads, config.cell},
       motion_(config),
-      selection_(settings.min_gain_nat),
+      prediction_(config.grid),
+      searcher_(config, settings.threads),
       X_WS_now_(config.first_path.X_WS_start) {}
 
 void PlannerNode::Handle(const Message& message, Outbox& out) {
@@ -79,6 +80,7 @@ void PlannerNode::Answer(const PlanRequest& request, Outbox& out) {
   plan.scan = request.scan;
   plan.mode = request.mode;
   plan.found = result.found;
+  plan.unknown_cells = std::ranges::count(voxels_.cells(), kUnobserved);
   if (result.found) {
     newest_scan_ = request.scan;
     newest_path_ = result.chosen.candidate.path;
@@ -96,47 +98,45 @@ void PlannerNode::Answer(const PlanRequest& request, Outbox& out) {
   out.push_back(timing);
 }
 
-void PlannerNode::AddCandidates(PlanMode mode) {
-  std::vector<Candidate> candidates;
-  if (mode == PlanMode::kFirst) {
-    candidates.push_back({.source = CandidateSource::kFirst, .path = config_.first_path});
-  } else if (mode == PlanMode::kBoundary && searched_scan_ != newest_scan_) {
-    candidates = FindBoundaryCandidates(BoundarySurface(mesh_), newest_scan_, newest_path_, config_.cell.profiler);
-    searched_scan_ = newest_scan_;
-  } else if (mode == PlanMode::kHole && !holes_detected_) {
-    selection_.Drop(CandidateSource::kBoundary);
-    candidates = FindHoleCandidates(BoundarySurface(mesh_), newest_scan_, config_.cell.profiler);
-    holes_detected_ = true;
-  }
-  for (Candidate& candidate : candidates) candidate.id = next_candidate_id_++;
-  selection_.Add(candidates);
+void PlannerNode::FoldNewestScan() {
+  if (std::exchange(predicted_scan_, newest_scan_) == newest_scan_ || rating_.rule != GainRule::kSurface) return;
+  prediction_.AddScan(voxels_, config_.cell.profiler, newest_path_);
+  prediction_.Update(voxels_, mesh_);
+}
+
+double PlannerNode::FindMinGain(PlanMode mode) const {
+  if (mode == PlanMode::kFirst || !method_.by_gain) return 0.0;
+  return mode == PlanMode::kHole ? settings_.min_hole_gain_nat : settings_.min_gain_nat;
 }
 
 ScanSelection::Result PlannerNode::Select(const PlanRequest& request, PlanTiming& timing) {
+  const double update_start_s = clock_();
+  FoldNewestScan();
+  const MapClearance clearance(voxels_);
+  const NothingSolid nothing;
+  const CandidateRating rating(rating_, voxels_, prediction_);
+  timing.update_s = clock_() - update_start_s;
   {
     Stopwatch watch(clock_, timing.candidates_s);
-    AddCandidates(request.mode);
+    searcher_.Update(request.mode, {mesh_, voxels_, prediction_, newest_scan_, newest_path_}, selection_);
   }
-  const double update_start_s = clock_();
-  const MapClearance clearance(voxels_);
-  const GainMap gain_map(voxels_, settings_.gain_rule, settings_.gain_reach_m);
-  timing.update_s = clock_() - update_start_s;
-  return selection_.Select(MakeTools(request, clearance, gain_map, timing));
+  const Clearance& used = method_.collision_test ? static_cast<const Clearance&>(clearance) : nothing;
+  return selection_.Select(MakeTools(request, used, rating, timing), FindMinGain(request.mode));
 }
 
-SelectionTools PlannerNode::MakeTools(const PlanRequest& request, const Clearance& clearance, const GainMap& gain_map,
-                                      PlanTiming& timing) const {
+SelectionTools PlannerNode::MakeTools(const PlanRequest& request, const Clearance& clearance,
+                                      const CandidateRating& rating, PlanTiming& timing) const {
   SelectionTools tools;
-  tools.estimate_gains = [this, &gain_map, &timing](std::span<const ScanPath> paths) {
+  tools.estimate_gains = [this, &rating, &timing](std::span<const ScanPath> paths) {
     Stopwatch watch(clock_, timing.gain_s);
-    std::vector<double> gains_nat;
-    for (int64_t gain : gain_.CalcAll(gain_map, paths, kSixtyFourth, settings_.gain_threads))
-      gains_nat.push_back(ToNats(gain));
-    return gains_nat;
+    return rating.EstimateGains(paths);
   };
-  tools.calc_gain = [this, &gain_map, &timing](const ScanPath& path) {
+  tools.calc_gain = [this, &rating, &timing](const ScanPath& path) {
     Stopwatch watch(clock_, timing.gain_s);
-    return ToNats(gain_.Calc(gain_map, path, kAllBeams));
+    return rating.CalcGain(path);
+  };
+  tools.calc_score = [this, &rating](const Candidate& candidate, double gain_nat) {
+    return rating.CalcScore(candidate, gain_nat, X_WS_now_);
   };
   tools.check_path = [this, &clearance, &timing](const ScanPath& path) {
     Stopwatch watch(clock_, timing.motion_s);

@@ -8,18 +8,19 @@
 #include "common/geometry/mesh_delta.h"
 #include "common/mapping/voxel_grid.h"
 #include "common/runtime/node.h"
-#include "services/planner/information_gain.h"
+#include "services/planner/candidate_rating.h"
+#include "services/planner/candidate_search.h"
 #include "services/planner/motion_planning/motion_planner.h"
 #include "services/planner/scan_selection.h"
 
 namespace nbs {
 
 struct PlannerSettings {
-  GainRule gain_rule = GainRule::kNearSurface;
-  double gain_reach_m = 0.025;  ///< For kNearSurface.
-  double min_gain_nat =
-      20.0;  ///< A candidate that promises less is not worth a motion: about thirty cells that were never observed.
-  int gain_threads = 2;
+  /// A candidate that promises less is not worth a motion: about thirty voxels that were never observed …
+  double min_gain_nat = 20.0;
+  double min_hole_gain_nat = 4.0;  ///< … or six, where only holes are left.
+  double gain_reach_m = 0.025;     ///< For GainRule::kNearSurface.
+  int threads = 2;
 };
 
 /// The planner without the bus: answers each request with the next best scan (Fig. 2, sections III-A to III-E).
@@ -38,10 +39,11 @@ class PlannerNode : public Node {
 
  private:
   void Answer(const PlanRequest& request, Outbox& out);
-  void AddCandidates(PlanMode mode);
+  void FoldNewestScan();
   ScanSelection::Result Select(const PlanRequest& request, PlanTiming& timing);
-  SelectionTools MakeTools(const PlanRequest& request, const Clearance& clearance, const GainMap& gain_map,
+  SelectionTools MakeTools(const PlanRequest& request, const Clearance& clearance, const CandidateRating& rating,
                            PlanTiming& timing) const;
+  double FindMinGain(PlanMode mode) const;
 
   RunConfig config_;
   PlannerSettings settings_;
@@ -49,13 +51,14 @@ class PlannerNode : public Node {
   size_t next_input_;
   MeshReplica mesh_;
   VoxelGrid voxels_;
-  InformationGain gain_;
+  Method method_;
+  RatingContext rating_;
   MotionPlanner motion_;
+  SurfacePrediction prediction_;
+  CandidateSearcher searcher_;
   ScanSelection selection_;
-  bool holes_detected_ = false;  ///< Detected once (section III-B).
-  int32_t next_candidate_id_ = 0;
-  int32_t newest_scan_ = -1;    ///< Last scan folded in.
-  int32_t searched_scan_ = -1;  ///< Last scan whose boundaries were searched.
+  int32_t newest_scan_ = -1;     ///< Last scan planned.
+  int32_t predicted_scan_ = -1;  ///< Last scan in the prediction.
   ScanPath newest_path_;
   Pose X_WS_now_;  ///< Where the sensor stands after the last plan.
 };

@@ -11,13 +11,14 @@ enum class Stage { kEstimated, kEvaluated, kChecked };
 
 struct Entry {
   RatedCandidate rated;
+  double score = 0.0;
   Stage stage = Stage::kEstimated;
   bool partly = false;
 };
 
-/// Order of a heap: the highest gain on top, of equals the oldest.
+/// Order of a heap: the highest score on top, of equals the oldest.
 bool IsWorse(const Entry& a, const Entry& b) {
-  if (a.rated.gain_nat != b.rated.gain_nat) return a.rated.gain_nat < b.rated.gain_nat;
+  if (a.score != b.score) return a.score < b.score;
   return a.rated.candidate.id > b.rated.candidate.id;
 }
 
@@ -61,9 +62,13 @@ bool Advance(Entry entry, double min_gain_nat, const SelectionTools& tools, Heap
     result.rated.push_back(std::move(rated));
     return false;
   };
+  const auto rate = [&] {
+    rated.gain_nat = tools.calc_gain(rated.candidate.path);
+    entry.score = tools.calc_score(rated.candidate, rated.gain_nat);
+  };
   if (rated.gain_nat < min_gain_nat) return reject(Verdict::kNoGain);
   if (entry.stage == Stage::kEstimated) {
-    rated.gain_nat = tools.calc_gain(rated.candidate.path);
+    rate();
     entry.stage = Stage::kEvaluated;
     heap.Push(std::move(entry));
     return false;
@@ -75,7 +80,7 @@ bool Advance(Entry entry, double min_gain_nat, const SelectionTools& tools, Heap
     if (check.verdict == Verdict::kPartly) {
       entry.partly = true;
       rated.candidate.path = check.path;
-      rated.gain_nat = tools.calc_gain(check.path);
+      rate();
     }
     heap.Push(std::move(entry));
     return false;
@@ -104,7 +109,7 @@ void ScanSelection::Drop(CandidateSource source) {
   std::erase_if(stack_, [source](const Candidate& candidate) { return candidate.source == source; });
 }
 
-ScanSelection::Result ScanSelection::Select(const SelectionTools& tools) {
+ScanSelection::Result ScanSelection::Select(const SelectionTools& tools, double min_gain_nat) {
   Result result;
   result.rated = std::exchange(dropped_, {});
   std::vector<ScanPath> paths;
@@ -113,11 +118,12 @@ ScanSelection::Result ScanSelection::Select(const SelectionTools& tools) {
   const std::vector<double> gains_nat = tools.estimate_gains(paths);
 
   Heap heap;
-  for (size_t i = 0; i < stack_.size(); ++i) heap.Push({{stack_[i], gains_nat.at(i), Verdict::kNotTried}});
-  while (!heap.empty() && !result.found) Advance(heap.Pop(), min_gain_nat_, tools, heap, result);
+  for (size_t i = 0; i < stack_.size(); ++i)
+    heap.Push({{stack_[i], gains_nat.at(i), Verdict::kNotTried}, tools.calc_score(stack_[i], gains_nat[i])});
+  while (!heap.empty() && !result.found) Advance(heap.Pop(), min_gain_nat, tools, heap, result);
   while (!heap.empty()) {
     Entry entry = heap.Pop();
-    if (entry.rated.gain_nat < min_gain_nat_) {
+    if (entry.rated.gain_nat < min_gain_nat) {
       entry.rated.verdict = Verdict::kNoGain;
     } else if (entry.stage == Stage::kChecked) {
       entry.rated.verdict = entry.partly ? Verdict::kPartly : Verdict::kReachable;

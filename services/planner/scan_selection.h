@@ -15,6 +15,10 @@ struct SelectionTools {
   std::function<std::vector<double>(std::span<const ScanPath>)> estimate_gains;
   /// Information gain, nats, of one path from all its beams.
   std::function<double(const ScanPath&)> calc_gain;
+  /// What candidates are ordered by, the higher the better, from the candidate and its gain.
+  std::function<double(const Candidate&, double gain_nat)> calc_score = [](const Candidate&, double gain_nat) {
+    return gain_nat;
+  };
 
   /// Whether the sensor can run along a path: kReachable, kPartly (then `path` is the longest part that can be reached)
   /// or what blocks it.
@@ -37,14 +41,14 @@ struct SelectionTools {
 /// that the robot can reach.
 class ScanSelection {
  public:
-  /// @param min_gain_nat  A candidate that promises less is discarded, >= 0.
-  explicit ScanSelection(double min_gain_nat) : min_gain_nat_(min_gain_nat) {}
-
   /// Puts candidates on the stack, where they stay over rounds until they are chosen or discarded.
   void Add(std::span<const Candidate> candidates);
 
-  /// Takes the candidates of a source off the stack.
+  /// Takes the candidates of a source off the stack; the next result names them.
   void Drop(CandidateSource source);
+
+  /// Takes off the stack, unnamed, the candidates for which the next round has better ones.
+  void Remove(const std::function<bool(const Candidate&)>& is_obsolete) { std::erase_if(stack_, is_obsolete); }
 
   size_t stack_size() const { return stack_.size(); }
 
@@ -58,15 +62,16 @@ class ScanSelection {
 
   /// Rates the whole stack and selects.
   ///
-  /// All candidates are ranked by the estimated gain; from the top, each is then evaluated with all beams, checked, and
-  /// given a motion, until one is left that no other can surpass. A candidate of which only a part can be reached
-  /// competes with the gain of that part. Ties go to the older candidate. Off the stack go: the chosen one, and those
-  /// blocked by an obstacle, outside of the work space, or without gain. Those blocked by unknown space or without a
-  /// motion stay.
-  Result Select(const SelectionTools& tools);
+  /// All candidates are ranked by the score of the estimated gain; from the top, each is then evaluated with all beams,
+  /// checked, and given a motion, until one is left that no other can surpass. A candidate of which only a part can be
+  /// reached competes with the gain of that part. Ties go to the older candidate. Off the stack go: the chosen one, and
+  /// those blocked by an obstacle, outside of the work space, or without gain. Those blocked by unknown space or
+  /// without a motion stay.
+  ///
+  /// @param min_gain_nat  A candidate that promises less is discarded, >= 0.
+  Result Select(const SelectionTools& tools, double min_gain_nat);
 
  private:
-  double min_gain_nat_;
   std::vector<Candidate> stack_;
   std::vector<RatedCandidate> dropped_;
 };

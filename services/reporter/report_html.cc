@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/planning/method.h"
 #include "services/reporter/svg_plot.h"
 
 namespace nbs {
@@ -67,6 +68,7 @@ std::string MakeSummary(const RunConfig& config, const RunRecord& record, double
     rows += fmt::format("<tr><td class='text'>{}</td><td class='text'>{}</td></tr>\n", name, EscapeHtml(value));
   };
   row("method", config.method);
+  row("gain rule", FindMethod(config.method).by_gain ? config.gain : "none");
   row("object", config.object);
   row("cell, seed, version", fmt::format("{}, {}, {}", config.cell.name, config.seed, config.version));
   row("ended because", record.detail.empty() ? record.end_reason : record.end_reason + ": " + record.detail);
@@ -122,9 +124,9 @@ std::string MakeScanTable(const RunRecord& record) {
     }
     html += fmt::format(
         "<tr><td>{}</td><td "
-        "class='text'>{}</td><td>{:.0f}</td><td>{:.3f}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{:.2f}</td>",
-        scan.scan + 1, ToString(scan.source), scan.gain_nat, scan.path.length_m(), scan.stripes,
-        1e3 * scan.timing.total_s, Percent(scan.completeness), scan.rim_length_m);
+        "class='text'>{}</td><td>{}</td><td>{:.3f}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{:.2f}</td>",
+        scan.scan + 1, ToString(scan.source), scan.by_gain() ? fmt::format("{:.0f}", scan.gain_nat) : "-",
+        scan.path.length_m(), scan.stripes, 1e3 * scan.timing.total_s, Percent(scan.completeness), scan.rim_length_m);
     html += fmt::format("<td>{}</td><td>{}</td><td>{}</td><td class='text'>{}</td></tr>\n",
                         scan.evaluation ? Percent(scan.evaluation->coverage) : "-", scan.triangles, scan.candidates,
                         verdicts);

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/planning/method.h"
+
 namespace nbs {
 namespace {
 
@@ -23,7 +25,7 @@ ordered_json MakeScan(const ScanRecord& scan) {
   ordered_json json;
   json["scan"] = scan.scan;
   json["source"] = ToString(scan.source);
-  json["gain"] = selected ? ordered_json(scan.gain_nat) : ordered_json(nullptr);
+  json["gain"] = scan.by_gain() ? ordered_json(scan.gain_nat) : ordered_json(nullptr);
   json["path_length_m"] = scan.path.length_m();
   json["stripes"] = scan.stripes;
   json["points"] = scan.points;
@@ -53,6 +55,7 @@ std::string MakeReportJson(const RunConfig& config, const RunRecord& record, dou
   };
   ordered_json json;
   json["method"] = config.method;
+  json["gain_rule"] = FindMethod(config.method).by_gain ? ordered_json(config.gain) : ordered_json(nullptr);
   json["object"] = config.object.empty() ? ordered_json(nullptr) : ordered_json(config.object);
   json["cell"] = config.cell.name;
   json["seed"] = config.seed;

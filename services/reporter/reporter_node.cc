@@ -21,7 +21,7 @@ void PrintHeader(std::ostream& out) {
 
 void PrintScan(const ScanRecord& scan, std::ostream& out) {
   const std::string coverage = scan.evaluation ? fmt::format("{:.2f} %", 100.0 * scan.evaluation->coverage) : "-";
-  const std::string gain = scan.mode == PlanMode::kFirst ? "-" : fmt::format("{:.0f} nat", scan.gain_nat);
+  const std::string gain = scan.by_gain() ? fmt::format("{:.0f} nat", scan.gain_nat) : "-";
   fmt::print(out, "{:>4}  {:<8}  {:>9}  {:>5.2f} m  {:>6.0f} ms  {:>10.2f} %  {:>8}  {:>10}  {:>9}\n", scan.scan + 1,
              ToString(scan.source), gain, scan.path.length_m(), 1e3 * scan.timing.total_s, 100.0 * scan.completeness,
              coverage, scan.candidates, scan.triangles);

@@ -22,7 +22,7 @@ struct ScanRecord {
   int scan = 0;
   PlanMode mode = PlanMode::kFirst;
   CandidateSource source = CandidateSource::kFirst;
-  double gain_nat = 0.0;
+  double gain_nat = 0.0;  ///< 0 where the choice did not rest on a gain.
   ScanPath path;
   int stripes = 0;
   int64_t points = 0;
@@ -35,6 +35,8 @@ struct ScanRecord {
   int candidates = 0;
   std::array<int, kVerdicts> verdicts{};  ///< Candidates by verdict, all rounds before this scan.
   int64_t scanned_utime_us = 0;           ///< Robot time at the end of the scan.
+
+  bool by_gain() const { return gain_nat > 0.0; }
 };
 
 /// A run as far as it went.

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "sim/directions.h"
+#include "common/geometry/directions.h"
 #include "sim/objects/statue_parts.h"
 
 namespace nbs {

@@ -9,6 +9,8 @@ int main(int argc, char** argv) {
   app.add_option("--object", request.object, "statue, or a mesh file: PLY, STL or OBJ in metres")
       ->capture_default_str();
   app.add_option("--method", request.method, "BH/IG, B/IG, B, S/IG or S")->capture_default_str();
+  app.add_option("--gain", request.gain,
+                 "Gain rule: surface, sum, near_surface, mean, per_second, unknown_count; default: the method's own");
   app.add_option("--cell", request.cell, "Name of a cell, or a cell file")->capture_default_str();
   app.add_option("--cells-dir", request.cells_dir, "Folder of the named cells")->default_val(NBS_CELLS_DIR);
   app.add_option("--completeness", request.completeness, "Wanted mesh completeness")->capture_default_str();

@@ -1,11 +1,13 @@
 #include "sim/prepare/prepare.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
+#include <span>
 #include <system_error>
 
+#include "common/config/suggestion.h"
+#include "common/planning/method.h"
 #include "common/runtime/counter_random.h"
 #include "common/runtime/error.h"
 #include "sim/load_object.h"
@@ -14,14 +16,27 @@
 namespace nbs {
 namespace {
 
-constexpr std::array<std::string_view, 5> kMethods = {"BH/IG", "B/IG", "B", "S/IG", "S"};
 constexpr double kSmallest_m = 0.02;
 constexpr double kLargest_m = 5.0;
 
-void CheckNumbers(const RunRequest& request) {
-  if (std::find(kMethods.begin(), kMethods.end(), request.method) == kMethods.end()) {
-    throw ConfigError("Unknown method `" + request.method + "`: use BH/IG, B/IG, B, S/IG or S.");
+/// The word, if it is one of the choices.
+void CheckChoice(std::string_view what, const std::string& word, std::span<const std::string_view> choices) {
+  if (std::ranges::find(choices, word) == choices.end()) throw ConfigError(ExplainUnknown(what, word, choices));
+}
+
+/// The gain rule asked for, or the method's own.
+std::string ResolveGain(const RunRequest& request) {
+  CheckChoice("method", request.method, MethodNames());
+  const Method& method = FindMethod(request.method);
+  if (request.gain.empty()) return std::string(ToString(method.gain));
+  CheckChoice("gain rule", request.gain, GainRuleNames());
+  if (!method.by_gain) {
+    throw ConfigError("The method " + request.method + " does not rate by gain: leave --gain out, or choose B/IG.");
   }
+  return request.gain;
+}
+
+void CheckNumbers(const RunRequest& request) {
   if (request.rate != "max" && request.rate != "realtime") {
     throw ConfigError("Unknown rate `" + request.rate + "`: use max or realtime.");
   }
@@ -109,9 +124,10 @@ std::string ListMethods() {
 }
 
 RunConfig PrepareRun(const RunRequest& request) {
+  RunConfig config;
+  config.gain = ResolveGain(request);
   CheckNumbers(request);
   CheckFolder(request.out);
-  RunConfig config;
   config.folder = std::filesystem::absolute(request.out).lexically_normal();
   if (!config.folder.has_filename()) config.folder = config.folder.parent_path();
   config.name = config.folder.filename().string();

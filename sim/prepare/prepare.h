@@ -13,6 +13,7 @@ namespace nbs {
 struct RunRequest {
   std::string object = "statue";  ///< Name or mesh file.
   std::string method = "BH/IG";
+  std::string gain;                 ///< Gain rule; empty: the method's own.
   std::string cell = "free";        ///< Name of a cell in cells_dir, or a cell file.
   std::filesystem::path cells_dir;  ///< Where the named cells lie.
   double completeness = 0.9875;

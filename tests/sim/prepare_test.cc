@@ -133,8 +133,14 @@ TEST_F(Prepare, UnknownCellNamesTheKnownOnes) {
 
 TEST_F(Prepare, WrongValuesAreRefusedByName) {
   request_.method = "BH";
-  EXPECT_THAT(Refusal(), HasSubstr("Unknown method `BH`"));
+  EXPECT_THAT(Refusal(), HasSubstr("unknown method `BH`"));
   request_.method = "B";
+  request_.gain = "sum";
+  EXPECT_THAT(Refusal(), HasSubstr("B does not rate by gain"));
+  request_.method = "BH/IG";
+  request_.gain = "sun";
+  EXPECT_THAT(Refusal(), HasSubstr("unknown gain rule `sun`: did you mean `sum`?"));
+  request_.gain = "";
   request_.rate = "fast";
   EXPECT_THAT(Refusal(), HasSubstr("Unknown rate `fast`"));
   request_.rate = "max";

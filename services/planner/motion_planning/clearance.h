@@ -18,6 +18,14 @@ class Clearance {
   virtual double CalcUnknownDistance(const Eigen::Vector3d& p_W) const = 0;
 };
 
+/// No collision test at all, as in methods that do without.
+class NothingSolid final : public Clearance {
+ public:
+  static constexpr double kFar_m = 10.0;
+  double CalcObstacleDistance(const Eigen::Vector3d& /*p_W*/) const override { return kFar_m; }
+  double CalcUnknownDistance(const Eigen::Vector3d& /*p_W*/) const override { return kFar_m; }
+};
+
 /// Another clearance with unknown space taken as free. Keeps a reference to it.
 class ObstaclesOnly final : public Clearance {
  public:

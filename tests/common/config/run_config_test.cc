@@ -121,7 +121,7 @@ TEST(RunConfig, MissingKeyIsRefused) {
 }
 
 TEST(RunConfig, MissingKeyOfTheCellIsRefused) {
-  EXPECT_EQ(ErrorWith("  body_margin_m: 0.02\n", ""), "run.yaml:13: key `body_margin_m` is missing");
+  EXPECT_EQ(ErrorWith("  body_margin_m: 0.02\n", ""), "run.yaml:14: key `body_margin_m` is missing");
 }
 
 TEST(RunConfig, UnknownMethodIsRefused) {
@@ -129,27 +129,27 @@ TEST(RunConfig, UnknownMethodIsRefused) {
 }
 
 TEST(RunConfig, UnknownRateIsRefused) {
-  EXPECT_EQ(ErrorWith("rate: realtime", "rate: fast"), "run.yaml:11: unknown rate `fast`: known are `max`, `realtime`");
+  EXPECT_EQ(ErrorWith("rate: realtime", "rate: fast"), "run.yaml:12: unknown rate `fast`: known are `max`, `realtime`");
 }
 
 TEST(RunConfig, SeedBeyondItsRangeIsRefused) {
   EXPECT_EQ(ErrorWith("18446744073709551615", "18446744073709551616"),
-            "run.yaml:8: `seed` must be a whole number from 0 of 64 bits, not `18446744073709551616`");
+            "run.yaml:9: `seed` must be a whole number from 0 of 64 bits, not `18446744073709551616`");
 }
 
 TEST(RunConfig, NoScansAtAllIsRefused) {
   EXPECT_EQ(ErrorWith("max_scans: 30", "max_scans: 0"),
-            "run.yaml:10: `max_scans` must be a whole number from 1 to 100000, not 0");
+            "run.yaml:11: `max_scans` must be a whole number from 1 to 100000, not 0");
 }
 
 TEST(RunConfig, CompletenessAboveOneIsRefused) {
   EXPECT_EQ(ErrorWith("completeness: 0.30000000000000004", "completeness: 98.75"),
-            "run.yaml:9: `completeness` must be above 0 and at most 1, not 98.75");
+            "run.yaml:10: `completeness` must be above 0 and at most 1, not 98.75");
 }
 
 TEST(RunConfig, GridOfAnotherResolutionIsRefused) {
   EXPECT_EQ(ErrorWith("resolution_m: 0.003\n  size", "resolution_m: 0.004\n  size"),
-            "run.yaml:42: `resolution_m` of the grid (0.004) must be that of the cell (0.003)");
+            "run.yaml:43: `resolution_m` of the grid (0.004) must be that of the cell (0.003)");
 }
 
 }  // namespace

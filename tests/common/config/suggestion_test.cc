@@ -11,7 +11,7 @@ constexpr std::array<std::string_view, 3> kKeys = {"resolution_m", "radius_m", "
 
 TEST(Suggestion, SwappedLettersAreRecognised) { EXPECT_EQ(FindSuggestion("resolutoin_m", kKeys), "resolution_m"); }
 
-TEST(Suggestion, CaseDoesNotCount) { EXPECT_EQ(FindSuggestion("bh/ig", MethodNames()), "BH/IG"); }
+TEST(Suggestion, CaseDoesNotCount) { EXPECT_EQ(FindSuggestion("RESOLUTION_m", kKeys), "resolution_m"); }
 
 TEST(Suggestion, AWordUnlikeAllChoicesHasNone) { EXPECT_EQ(FindSuggestion("telescope", kKeys), std::nullopt); }
 

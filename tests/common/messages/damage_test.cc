@@ -104,8 +104,8 @@ TEST(Refusal, ANegativeTimeIsNamed) {
 
 TEST(Refusal, AnUnknownCodeIsNamed) {
   auto bytes = Encode(kHeader, PlanRequest{});
-  bytes.back() = 3;
-  EXPECT_EQ(Decode(StreamOf<PlanRequest>(), bytes).refusal, "unknown code 3");
+  bytes.back() = 4;
+  EXPECT_EQ(Decode(StreamOf<PlanRequest>(), bytes).refusal, "unknown code 4");
 }
 
 TEST(Encoding, ANumberThatDoesNotFitItsFieldThrows) {

@@ -67,10 +67,10 @@ Trajectory RandomTrajectory(Random& random) {
   return trajectory;
 }
 
-void Fill(Random& r, PlanRequest& m) { m = {0, Scan(r), Code<PlanMode>(r, 3)}; }
+void Fill(Random& r, PlanRequest& m) { m = {0, Scan(r), Code<PlanMode>(r, kPlanModes)}; }
 void Fill(Random& r, Trajectory& m) { m = RandomTrajectory(r); }
 void Fill(Random& r, RunState& m) {
-  m = {0, Scan(r), Code<RunPhase>(r, 3), Code<PlanMode>(r, 3), Flag(r), Text(r), Text(r)};
+  m = {0, Scan(r), Code<RunPhase>(r, 3), Code<PlanMode>(r, kPlanModes), Flag(r), Text(r), Text(r)};
 }
 void Fill(Random& r, RobotState& m) { m = {0, Scan(r), Flag(r), Flag(r), RandomPose(r), Joints(r)}; }
 void Fill(Random& r, Execution& m) { m = {0, Scan(r), Flag(r), Text(r)}; }
@@ -93,7 +93,14 @@ void Fill(Random& r, MeshScan& m) {
 }
 void Fill(Random& r, VoxelDelta& m) { m = MakeRandomVoxelDelta(r, Some(r), 5); }
 void Fill(Random& r, Plan& m) {
-  m = {0, Scan(r), Code<PlanMode>(r, 3), Flag(r), Text(r), Rated(r), RandomTrajectory(r)};
+  m = {0,
+       Scan(r),
+       Code<PlanMode>(r, kPlanModes),
+       Flag(r),
+       Text(r),
+       Integer(r, 0, 1 << 27),
+       Rated(r),
+       RandomTrajectory(r)};
 }
 void Fill(Random& r, CandidateSet& m) { m = MakeRandomCandidateSet(r, Some(r)); }
 void Fill(Random& r, PlanTiming& m) { m = {0, Scan(r), Real(r), Real(r), Real(r), Real(r), Real(r)}; }

@@ -77,13 +77,24 @@ TEST(RunLogic, NoBoundaryLeftAsksForTheSameScanAmongHoles) {
 
 TEST(RunLogic, NoBoundaryLeftEndsAMethodWithoutHoles) {
   RunSettings settings;
-  settings.holes = false;
+  settings.search = CandidateSearch::kBoundary;
   const std::string reason = "Among boundaries " + std::string(kStackIsEmpty) + ".";
   const RunStep step = Advance(settings, MakeState(Awaiting::kPlan, 3, PlanMode::kBoundary),
                                MakePlan(3, PlanMode::kBoundary, false, reason));
   EXPECT_EQ(step.state.awaiting, Awaiting::kNothing);
   EXPECT_EQ(Find<RunState>(step).end_reason, "no_candidates");
   EXPECT_FALSE(Find<RunState>(step).failed);
+}
+
+TEST(RunLogic, NothingLeftOfACompleteMeshMeansThatItIsComplete) {
+  RunLogicState state = MakeState(Awaiting::kPlan, 7, PlanMode::kHole);
+  state.last_scan = MakeMesh(6, 0.99);
+  const std::string reason(kStackIsEmpty);
+  EXPECT_EQ(Find<RunState>(Advance(kSettings, state, MakePlan(7, PlanMode::kHole, false, reason))).end_reason,
+            "completeness_reached");
+  state.last_scan = MakeMesh(6, 0.98);
+  EXPECT_EQ(Find<RunState>(Advance(kSettings, state, MakePlan(7, PlanMode::kHole, false, reason))).end_reason,
+            "no_candidates");
 }
 
 TEST(RunLogic, NoHoleReachableEndsTheRunWithThePlannersReason) {
@@ -160,6 +171,37 @@ TEST(RunLogic, ALimitOfOneScanEndsTheRunAfterTheFirst) {
   EXPECT_EQ(Find<RunState>(step).end_reason, "scan_limit");
 }
 
+TEST(RunLogic, ASphereMethodStaysOnTheSphere) {
+  RunSettings settings;
+  settings.search = CandidateSearch::kSphere;
+  const RunStep step = Advance(settings, MakeState(Awaiting::kMeshScan, 0, PlanMode::kFirst), MakeMesh(0, 0.9));
+  EXPECT_EQ(Find<PlanRequest>(step).mode, PlanMode::kSphere);
+}
+
+TEST(RunLogic, AMethodThatScansAllItHasIgnoresTheCompleteness) {
+  RunSettings settings;
+  settings.end = EndRule::kNothingLeft;
+  RunLogicState state = MakeState(Awaiting::kMeshScan, 3, PlanMode::kBoundary);
+  state.last_scan = MakeMesh(2, 1.0, 9'999);
+  EXPECT_EQ(Find<PlanRequest>(Advance(settings, state, MakeMesh(3, 1.0))).scan, 4);
+}
+
+TEST(RunLogic, UnknownVoxelsThatHardlyChangeEndAMethodThatCountsThem) {
+  RunSettings settings;
+  settings.search = CandidateSearch::kSphere;
+  settings.end = EndRule::kUnknownSettled;
+  RunLogicState state = MakeState(Awaiting::kPlan, 4, PlanMode::kSphere);
+  state.unknown_cells = 100'000;
+  Plan plan = MakePlan(4, PlanMode::kSphere, true);
+  plan.unknown_cells = 99'000;
+  EXPECT_EQ(Advance(settings, state, plan).state.awaiting, Awaiting::kExecution);
+  EXPECT_EQ(Advance(settings, state, plan).state.unknown_cells, 99'000);
+  plan.unknown_cells = 99'600;
+  EXPECT_EQ(Find<RunState>(Advance(settings, state, plan)).end_reason, "unknown_settled");
+  settings.end = EndRule::kCompleteness;
+  EXPECT_EQ(Advance(settings, state, plan).state.awaiting, Awaiting::kExecution);
+}
+
 TEST(RunLogic, HolesAreScannedForTheRestOfTheRun) {
   const RunStep step = Advance(kSettings, MakeState(Awaiting::kMeshScan, 8, PlanMode::kHole), MakeMesh(8, 0.95));
   EXPECT_EQ(Find<PlanRequest>(step).scan, 9);
@@ -194,15 +236,17 @@ TEST(RunSettings, ComeFromTheRunsConfiguration) {
   const RunSettings settings = MakeRunSettings(config);
   EXPECT_EQ(settings.completeness, 0.9);
   EXPECT_EQ(settings.max_scans, 12);
-  EXPECT_FALSE(settings.holes);
+  EXPECT_EQ(settings.search, CandidateSearch::kBoundary);
   config.method = "BH/IG";
-  EXPECT_TRUE(MakeRunSettings(config).holes);
+  EXPECT_EQ(MakeRunSettings(config).search, CandidateSearch::kBoundaryAndHole);
+  config.method = "S";
+  EXPECT_EQ(MakeRunSettings(config).end, EndRule::kUnknownSettled);
 }
 
-TEST(RunSettings, AnUnknownMethodIsAConfigurationError) {
+TEST(RunSettings, AnUnknownMethodIsRefused) {
   RunConfig config;
-  config.method = "S/IG";
-  EXPECT_THROW(MakeRunSettings(config), ConfigError);
+  config.method = "S/B";
+  EXPECT_THROW(MakeRunSettings(config), std::invalid_argument);
 }
 
 }  // namespace

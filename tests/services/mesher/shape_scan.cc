@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/directions.h"
+#include "common/geometry/directions.h"
 #include "sim/mesh_measures.h"
 #include "sim/simulated_profiler.h"
 

@@ -58,9 +58,9 @@ TEST(ScanSelection, TheHighestGainThatCanBeReachedWins) {
   MadeUpWorld world;
   world.gains = {{100, 5.0}, {200, 9.0}, {300, 7.0}};
   world.checks = {{200, Verdict::kBlockedByUnknown}};
-  ScanSelection selection(1.0);
+  ScanSelection selection;
   selection.Add(MakeCandidates({100, 200, 300}));
-  const auto result = selection.Select(world.MakeTools());
+  const auto result = selection.Select(world.MakeTools(), 1.0);
   ASSERT_TRUE(result.found);
   EXPECT_EQ(result.chosen.candidate.id, 2);
   EXPECT_EQ(world.motions_planned, 1);
@@ -71,12 +71,12 @@ TEST(ScanSelection, BlockedByUnknownStaysAndBlockedByAnObstacleGoes) {
   world.gains = {{100, 5.0}, {200, 9.0}, {300, 7.0}};
   world.checks = {
       {100, Verdict::kBlockedByUnknown}, {200, Verdict::kBlockedByObstacle}, {300, Verdict::kBlockedByUnknown}};
-  ScanSelection selection(1.0);
+  ScanSelection selection;
   selection.Add(MakeCandidates({100, 200, 300}));
-  EXPECT_FALSE(selection.Select(world.MakeTools()).found);
+  EXPECT_FALSE(selection.Select(world.MakeTools(), 1.0).found);
   EXPECT_EQ(selection.stack_size(), 2u);
   world.checks.clear();
-  EXPECT_EQ(selection.Select(world.MakeTools()).chosen.candidate.id, 2);
+  EXPECT_EQ(selection.Select(world.MakeTools(), 1.0).chosen.candidate.id, 2);
 }
 
 TEST(ScanSelection, APartCompetesWithTheGainOfThePart) {
@@ -84,11 +84,11 @@ TEST(ScanSelection, APartCompetesWithTheGainOfThePart) {
   world.gains = {{100, 5.0}, {400, 9.0}, {50, 3.0}};
   world.checks = {{400, Verdict::kPartly}};
   world.parts = {{400, 50}};
-  ScanSelection selection(1.0);
+  ScanSelection selection;
   selection.Add(MakeCandidates({100, 400}));
-  const auto first = selection.Select(world.MakeTools());
+  const auto first = selection.Select(world.MakeTools(), 1.0);
   EXPECT_EQ(first.chosen.candidate.id, 0);
-  const auto second = selection.Select(world.MakeTools());
+  const auto second = selection.Select(world.MakeTools(), 1.0);
   EXPECT_EQ(MadeUpWorld::Key(second.chosen.candidate.path), 50);
   EXPECT_DOUBLE_EQ(second.chosen.gain_nat, 3.0);
 }
@@ -96,9 +96,9 @@ TEST(ScanSelection, APartCompetesWithTheGainOfThePart) {
 TEST(ScanSelection, EachCandidateGetsExactlyOneVerdictARound) {
   MadeUpWorld world;
   world.gains = {{100, 5.0}, {200, 9.0}, {300, 7.0}, {400, 0.5}};
-  ScanSelection selection(1.0);
+  ScanSelection selection;
   selection.Add(MakeCandidates({100, 200, 300, 400}));
-  const auto result = selection.Select(world.MakeTools());
+  const auto result = selection.Select(world.MakeTools(), 1.0);
   ASSERT_EQ(result.rated.size(), 4u);
   std::map<Verdict, int> counts;
   for (const RatedCandidate& rated : result.rated) ++counts[rated.verdict];
@@ -110,27 +110,54 @@ TEST(ScanSelection, EachCandidateGetsExactlyOneVerdictARound) {
 TEST(ScanSelection, OfEqualGainsTheOlderWins) {
   MadeUpWorld world;
   world.gains = {{100, 5.0}, {200, 5.0}};
-  ScanSelection selection(1.0);
+  ScanSelection selection;
   selection.Add(MakeCandidates({200, 100}));
-  EXPECT_EQ(selection.Select(world.MakeTools()).chosen.candidate.id, 0);
+  EXPECT_EQ(selection.Select(world.MakeTools(), 1.0).chosen.candidate.id, 0);
 }
 
 TEST(ScanSelection, DroppedCandidatesAreReportedOnceAndNeverChosen) {
   MadeUpWorld world;
   world.gains = {{100, 5.0}};
-  ScanSelection selection(1.0);
+  ScanSelection selection;
   selection.Add(MakeCandidates({100}));
   selection.Drop(CandidateSource::kBoundary);
-  const auto first = selection.Select(world.MakeTools());
+  const auto first = selection.Select(world.MakeTools(), 1.0);
   EXPECT_FALSE(first.found);
   ASSERT_EQ(first.rated.size(), 1u);
   EXPECT_EQ(first.rated[0].verdict, Verdict::kDropped);
-  EXPECT_TRUE(selection.Select(world.MakeTools()).rated.empty());
+  EXPECT_TRUE(selection.Select(world.MakeTools(), 1.0).rated.empty());
+}
+
+TEST(ScanSelection, TheScoreOrdersAndTheGainDiscards) {
+  MadeUpWorld world;
+  world.gains = {{100, 5.0}, {200, 9.0}, {300, 0.5}};
+  SelectionTools tools = world.MakeTools();
+  tools.calc_score = [](const Candidate& candidate, double) { return -candidate.path.length_m(); };
+  ScanSelection selection;
+  selection.Add(MakeCandidates({300, 200, 100}));
+  const auto shortest = selection.Select(tools, 1.0);
+  EXPECT_EQ(shortest.chosen.candidate.id, 2);
+  EXPECT_EQ(shortest.rated.back().candidate.id, 0);
+  EXPECT_EQ(shortest.rated.back().verdict, Verdict::kNoGain);
+  selection.Add(MakeCandidates({100}));
+  tools.calc_score = [](const Candidate& candidate, double) { return candidate.path.length_m(); };
+  EXPECT_EQ(selection.Select(tools, 1.0).chosen.candidate.id, 1);
+}
+
+TEST(ScanSelection, WhatIsRemovedIsNeitherChosenNorNamed) {
+  MadeUpWorld world;
+  world.gains = {{100, 5.0}, {200, 9.0}};
+  ScanSelection selection;
+  selection.Add(MakeCandidates({100, 200}));
+  selection.Remove([](const Candidate& candidate) { return candidate.id == 1; });
+  const auto result = selection.Select(world.MakeTools(), 1.0);
+  EXPECT_EQ(result.chosen.candidate.id, 0);
+  EXPECT_EQ(result.rated.size(), 1u);
 }
 
 TEST(ScanSelection, AnEmptyStackGivesNothing) {
   MadeUpWorld world;
-  EXPECT_FALSE(ScanSelection(1.0).Select(world.MakeTools()).found);
+  EXPECT_FALSE(ScanSelection().Select(world.MakeTools(), 1.0).found);
 }
 
 }  // namespace

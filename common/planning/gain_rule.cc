@@ -1,13 +1,14 @@
-#include "services/planner/gain_rule.h"
+#include "common/planning/gain_rule.h"
 
 #include <array>
 #include <stdexcept>
+#include <string>
 
 namespace nbs {
 namespace {
 
-constexpr std::array<std::string_view, kGainRules> kNames = {"sum", "near_surface", "mean", "per_second",
-                                                             "unknown_count"};
+constexpr std::array<std::string_view, kGainRules> kNames = {"sum",        "near_surface",  "mean",
+                                                             "per_second", "unknown_count", "surface"};
 
 }  // namespace
 
@@ -20,11 +21,7 @@ std::optional<GainRule> FindGainRule(std::string_view name) {
   return std::nullopt;
 }
 
-std::string ListGainRules() {
-  std::string list;
-  for (const std::string_view name : kNames) list += (list.empty() ? "" : ", ") + std::string(name);
-  return list;
-}
+std::span<const std::string_view> GainRuleNames() { return kNames; }
 
 double CalcScore(GainRule rule, double gain_nat, const PathCost& cost) {
   if (rule != GainRule::kMean && rule != GainRule::kPerSecond) return gain_nat;

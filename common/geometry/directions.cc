@@ -1,4 +1,4 @@
-#include "sim/directions.h"
+#include "common/geometry/directions.h"
 
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
+#include <span>
 #include <string_view>
 
 namespace nbs {
@@ -16,16 +16,18 @@ enum class GainRule : uint8_t {
   kUnknownCount = 4,  ///< "unknown_count": ln 2 for every beam that meets an unknown cell before an occupied one; the
                       ///< beam ends there (Wong, Dumont & Abidi, "Next best view system in a 3-D object modeling
                       ///< task", IEEE CIRA 1999).
+  kSurface = 5,  ///< "surface": ln 2 for every voxel-sized piece of predicted, unseen surface that the path sees, each
+                 ///< once (services/planner/surface_prediction).
 };
-inline constexpr int kGainRules = 5;
+inline constexpr int kGainRules = 6;
 
 std::string_view ToString(GainRule rule);
 
 /// The rule of a name as ToString gives it; none if no rule is called so.
 std::optional<GainRule> FindGainRule(std::string_view name);
 
-/// All names, for messages: "sum, near_surface, …".
-std::string ListGainRules();
+/// All names, in the order of the rules.
+std::span<const std::string_view> GainRuleNames();
 
 /// What a scan path costs.
 struct PathCost {
@@ -34,7 +36,7 @@ struct PathCost {
 };
 
 /// The figure by which candidates are ordered, the higher the better: the gain in nats (kSum, kNearSurface,
-/// kUnknownCount), nats per beam (kMean) or nats per second (kPerSecond).
+/// kUnknownCount, kSurface), nats per beam (kMean) or nats per second (kPerSecond).
 ///
 /// @param gain_nat  Gain of the whole path.
 /// @throws std::invalid_argument if the rule divides by a cost that is not positive.

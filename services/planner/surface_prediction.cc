@@ -1,0 +1,201 @@
+#include "services/planner/surface_prediction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/geometry/borders.h"
+#include "common/mapping/ray_walk.h"
+#include "services/planner/information_gain.h"
+#include "services/planner/surface_view.h"
+
+namespace nbs {
+namespace {
+
+constexpr uint8_t kMaxCount = 200;
+
+/// The blocks of a voxel space, with a layer of blocks around it that is known to be free.
+GridShape MakeBlocks(const GridShape& cells, int cells_per_block) {
+  GridShape blocks;
+  blocks.resolution_m = cells.resolution_m * cells_per_block;
+  blocks.origin_W = cells.origin_W - Eigen::Vector3d::Constant(blocks.resolution_m);
+  for (int axis = 0; axis < 3; ++axis)
+    blocks.size[axis] = (cells.size[axis] + cells_per_block - 1) / cells_per_block + 2;
+  return blocks;
+}
+
+/// Calls `visit(index)` for every block that is not in the outermost layer.
+template <typename Visit>
+void VisitInner(const GridShape& shape, Visit&& visit) {
+  for (int z = 1; z + 1 < shape.size.z(); ++z) {
+    for (int y = 1; y + 1 < shape.size.y(); ++y) {
+      const int64_t first = shape.Index(1, y, z);
+      for (int64_t block = first; block < first + shape.size.x() - 2; ++block) visit(block);
+    }
+  }
+}
+
+/// Calls `visit(from, to)` for a ninth of a scan's beams, between the nearest and the largest depth.
+template <typename Visit>
+void VisitBeams(const Profiler& profiler, const ScanPath& path, Visit&& visit) {
+  constexpr int kStep = 3;
+  const std::vector<Eigen::Vector3d> directions_S = CalcBeamDirections_S(profiler);
+  const double spacing_m = profiler.scan_speed_m_per_s / profiler.rate_hz;
+  const int stripes = InformationGain(profiler).CountStripes(path);
+  for (int stripe = kStep / 2; stripe < stripes; stripe += kStep) {
+    const Pose X_WS = CalcStripePose(path, spacing_m, stripe);
+    for (size_t beam = kStep / 2; beam < directions_S.size(); beam += kStep) {
+      const Eigen::Vector3d per_depth_W = X_WS.linear() * directions_S[beam] / directions_S[beam].z();
+      visit(X_WS.translation() + per_depth_W * profiler.min_depth_m,
+            X_WS.translation() + per_depth_W * profiler.max_depth_m);
+    }
+  }
+}
+
+void CheckSettings(const SurfacePredictionSettings& s) {
+  const bool sound = s.cells_per_block >= 1 && s.depth_m > 0.0 && s.free_max_probability > 0.0 &&
+                     s.free_max_probability < 0.95 && s.iterations >= 1 && s.relaxation > 0.0 && s.relaxation < 2.0 &&
+                     s.look_weight >= 0.0 && s.max_looks >= 0 && s.rim_width_m > 0.0 && s.missed_factor >= 0.0 &&
+                     s.missed_factor <= 1.0;
+  if (!sound) throw std::invalid_argument("SurfacePrediction: a setting is out of range");
+}
+
+}  // namespace
+
+SurfacePrediction::SurfacePrediction(const GridShape& shape, const SurfacePredictionSettings& settings)
+    : settings_(settings), shape_(MakeBlocks(shape, std::max(1, settings.cells_per_block))) {
+  CheckSettings(settings);
+  stride_ = {1, shape_.size.x(), int64_t{shape_.size.x()} * shape_.size.y()};
+  potential_.assign(shape_.cells(), -1.0f);
+  fixed_.assign(shape_.cells(), 1);
+  occupied_.assign(shape_.cells(), 0);
+  walls_.assign(shape_.cells(), 0);
+  looks_.assign(shape_.cells(), 0);
+  missed_.assign(shape_.cells(), 0);
+}
+
+int64_t SurfacePrediction::FindBlock(int64_t cell, const GridShape& cells) const {
+  const int64_t row = cell / cells.size.x();
+  const int n = settings_.cells_per_block;
+  return shape_.Index(static_cast<int>(cell % cells.size.x()) / n + 1, static_cast<int>(row % cells.size.y()) / n + 1,
+                      static_cast<int>(row / cells.size.y()) / n + 1);
+}
+
+void SurfacePrediction::AddScan(const VoxelGrid& grid, const Profiler& profiler, const ScanPath& path) {
+  std::vector<uint8_t> looked(shape_.cells(), 0), due(shape_.cells(), 0);
+  for (uint32_t i : SurfaceView(profiler).FindSeen(*this, path)) due[elements_[i].block] = 1;
+  VisitBeams(profiler, path, [&](const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W) {
+    WalkRay(MakeRayWalk(grid.shape(), from_W, to_W), [&](int64_t cell) {
+      const int16_t log_odds = grid.cells()[cell];
+      if (log_odds == kUnobserved) looked[FindBlock(cell, grid.shape())] = 1;
+      return !IsOccupied(log_odds);
+    });
+  });
+  for (int64_t block = 0; block < shape_.cells(); ++block) {
+    looks_[block] = std::min<uint8_t>(kMaxCount, looks_[block] + looked[block]);
+    missed_[block] = std::min<uint8_t>(kMaxCount, missed_[block] + due[block]);
+  }
+}
+
+void SurfacePrediction::Update(const VoxelGrid& grid, const MeshReplica& mesh) {
+  FixKnown(grid, mesh);
+  Relax();
+  VisitInner(shape_, [this](int64_t block) { walls_[block] = occupied_[block] != 0 || potential_[block] > 0.0f; });
+  elements_.clear();
+  FindElements();
+  AddRim(mesh);
+}
+
+void SurfacePrediction::FixKnown(const VoxelGrid& grid, const MeshReplica& mesh) {
+  const int16_t free_log_odds = CalcLogOdds(settings_.free_max_probability);
+  std::vector<uint8_t> free(shape_.cells(), 0);
+  std::ranges::fill(occupied_, 0);
+  for (int64_t cell = 0; cell < grid.shape().cells(); ++cell) {
+    const int16_t log_odds = grid.cells()[cell];
+    if (log_odds == kUnobserved) continue;
+    const int64_t block = FindBlock(cell, grid.shape());
+    if (IsOccupied(log_odds)) occupied_[block] = 1;
+    if (log_odds <= free_log_odds) free[block] = 1;
+  }
+  // Blocks that are still unknown keep the potential of the last round.
+  VisitInner(shape_, [&](int64_t block) {
+    fixed_[block] = occupied_[block] != 0 || free[block] != 0;
+    if (fixed_[block] != 0) potential_[block] = occupied_[block] != 0 ? 0.0f : -1.0f;
+  });
+  for (const MeshVertex& vertex : mesh.vertices()) {
+    if (vertex.measurements == 0) continue;
+    const Eigen::Vector3f inside_W = vertex.p_W - vertex.normal_W * static_cast<float>(settings_.depth_m);
+    const int64_t block = FindCell(shape_, inside_W.cast<double>());
+    if (block < 0 || fixed_[block] != 0) continue;
+    fixed_[block] = 1;
+    potential_[block] = 1.0f;
+  }
+}
+
+void SurfacePrediction::Relax() {
+  const auto omega = static_cast<float>(settings_.relaxation), look = static_cast<float>(settings_.look_weight);
+  const int64_t x = stride_[0], y = stride_[1], z = stride_[2];
+  float* u = potential_.data();
+  for (int i = 0; i < settings_.iterations; ++i) {
+    VisitInner(shape_, [&](int64_t b) {
+      if (fixed_[b] != 0) return;
+      const float pull = look * static_cast<float>(std::min<int>(looks_[b], settings_.max_looks));
+      const float sum = u[b - x] + u[b + x] + u[b - y] + u[b + y] + u[b - z] + u[b + z] - pull;
+      u[b] += omega * (sum / (6.0f + pull) - u[b]);
+    });
+  }
+}
+
+bool SurfacePrediction::IsNearSurface(int64_t block) const {
+  for (int dz = -1; dz <= 1; ++dz) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        if (occupied_[block + dx * stride_[0] + dy * stride_[1] + dz * stride_[2]] != 0) return true;
+      }
+    }
+  }
+  return false;
+}
+
+float SurfacePrediction::Discount(int64_t block) const {
+  return std::pow(static_cast<float>(settings_.missed_factor), static_cast<float>(missed_[block]));
+}
+
+void SurfacePrediction::FindElements() {
+  const float face_m2 = static_cast<float>(shape_.resolution_m * shape_.resolution_m);
+  VisitInner(shape_, [&](int64_t block) {
+    if (potential_[block] <= 0.0f || occupied_[block] != 0) return;
+    bool open = false;
+    Eigen::Vector3f gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float below = potential_[block - stride_[axis]], above = potential_[block + stride_[axis]];
+      open = open || std::min(below, above) <= 0.0f;
+      gradient[axis] = above - below;
+    }
+    if (!open || gradient.norm() < 1e-6f || IsNearSurface(block)) return;
+    const Eigen::Vector3f normal_W = -gradient.normalized();
+    const int64_t row = block / shape_.size.x();
+    const Eigen::Vector3d middle(static_cast<double>(block % shape_.size.x()) + 0.5,
+                                 static_cast<double>(row % shape_.size.y()) + 0.5,
+                                 static_cast<double>(row / shape_.size.y()) + 0.5);
+    elements_.push_back({(shape_.origin_W + shape_.resolution_m * middle).cast<float>(), normal_W,
+                         face_m2 / normal_W.cwiseAbs().maxCoeff() * Discount(block), static_cast<uint32_t>(block)});
+  });
+}
+
+void SurfacePrediction::AddRim(const MeshReplica& mesh) {
+  const auto width_m = static_cast<float>(settings_.rim_width_m);
+  for (const BorderEdge& edge : FindBorderEdges(mesh.triangles())) {
+    const auto& corners = mesh.triangles()[edge.triangle];
+    const auto corner_W = [&](int i) -> const Eigen::Vector3f& { return mesh.vertices()[corners.at(i)].p_W; };
+    const Eigen::Vector3f along_W = mesh.vertices()[edge.to].p_W - mesh.vertices()[edge.from].p_W;
+    const Eigen::Vector3f normal_W = (corner_W(1) - corner_W(0)).cross(corner_W(2) - corner_W(0)).normalized();
+    const Eigen::Vector3f outward_W = along_W.cross(normal_W).normalized();
+    const Eigen::Vector3f p_W = mesh.vertices()[edge.from].p_W + 0.5f * along_W + 0.5f * width_m * outward_W;
+    const int64_t block = FindCell(shape_, p_W.cast<double>());
+    if (block < 0) continue;
+    elements_.push_back({p_W, normal_W, along_W.norm() * width_m * Discount(block), static_cast<uint32_t>(block)});
+  }
+}
+
+}  // namespace nbs

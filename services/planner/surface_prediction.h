@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/geometry/mesh_delta.h"
+#include "common/mapping/voxel_grid.h"
+#include "common/planning/scan_path.h"
+#include "common/sensing/profiler.h"
+
+namespace nbs {
+
+/// A piece of the surface that nobody has seen yet but that must be there, because the surface of a body is closed.
+struct SurfaceElement {
+  Eigen::Vector3f p_W = Eigen::Vector3f::Zero();        ///< Middle, metres.
+  Eigen::Vector3f normal_W = Eigen::Vector3f::UnitZ();  ///< Unit, outward.
+  float area_m2 = 0.0f;                                 ///< Discounted for each scan that looked at it in vain.
+  uint32_t block = 0;                                   ///< Block of the prediction in which it lies.
+};
+
+struct SurfacePredictionSettings {
+  int cells_per_block = 2;            ///< Edge of a block, voxels.
+  double depth_m = 0.012;             ///< So far behind a measured point is inside of the object.
+  double free_max_probability = 0.3;  ///< A voxel is known to be free up to this p.
+  int iterations = 80;                ///< Sweeps of the relaxation a round; the next round goes on where it ended.
+  double relaxation = 1.85;           ///< Over-relaxation, in (0, 2).
+  double look_weight = 1.0;    ///< Pull to free of a scan that looked through a block in vain; each neighbour has 1.
+  int max_looks = 5;           ///< More scans than this pull no harder.
+  double rim_width_m = 0.012;  ///< Of the strip of elements along the border of the mesh.
+  double missed_factor = 0.1;  ///< What is left of an element's area when a scan should have seen it and did not.
+};
+
+/// The unseen surface, foretold from what is known: a potential that is 1 behind every measured point, -1 in known free
+/// space and outside of the grid, 0 on measured surface, and harmonic in between. Its zero crossing in the unknown is
+/// the predicted surface: it continues the measured one smoothly and closes it (volumetric diffusion, after Davis,
+/// Marschner, Garr & Levoy, "Filling holes in complex surfaces using volumetric diffusion", 3DPVT 2002, DOI
+/// 10.1109/TDPVT.2002.1024098). A strip along the border of the mesh, where the surface goes on for certain, stands for
+/// what is finer than a block. The prediction serves to choose where to look, never as a surface, and frees nothing.
+///
+/// A scan whose beams pass a block and bring nothing back does not prove it free, but speaks for air: it pulls the
+/// potential to -1, and elements that it should have seen lose most of their area.
+class SurfacePrediction {
+ public:
+  /// @param shape  Of the voxel space.
+  /// @throws std::invalid_argument if a setting is out of range.
+  explicit SurfacePrediction(const GridShape& shape, const SurfacePredictionSettings& settings = {});
+
+  /// Notes what a scan looked at in vain; to be called after its voxels are in the grid and before the next Update.
+  void AddScan(const VoxelGrid& grid, const Profiler& profiler, const ScanPath& path);
+
+  /// Foretells the surface anew from the voxel space and the mesh as they are now.
+  void Update(const VoxelGrid& grid, const MeshReplica& mesh);
+
+  /// Predicted blocks in index order, then the border's edges in the order of FindBorderEdges.
+  std::span<const SurfaceElement> elements() const { return elements_; }
+  /// Blocks that end a line of sight: measured surface, and the predicted inside; by block index, 0 or 1.
+  std::span<const uint8_t> walls() const { return walls_; }
+  /// By block index, -1 (free) to 1 (inside).
+  std::span<const float> potential() const { return potential_; }
+  /// Of the blocks: the voxel space and one layer around it.
+  const GridShape& shape() const { return shape_; }
+
+ private:
+  void FixKnown(const VoxelGrid& grid, const MeshReplica& mesh);
+  void Relax();
+  void FindElements();
+  void AddRim(const MeshReplica& mesh);
+  bool IsNearSurface(int64_t block) const;
+  float Discount(int64_t block) const;
+  int64_t FindBlock(int64_t cell, const GridShape& cells) const;
+
+  SurfacePredictionSettings settings_;
+  GridShape shape_;
+  std::array<int64_t, 3> stride_;  ///< Of a block's neighbours.
+  std::vector<float> potential_;
+  std::vector<uint8_t> fixed_;     ///< The potential is known.
+  std::vector<uint8_t> occupied_;  ///< Holds an occupied voxel.
+  std::vector<uint8_t> walls_;
+  std::vector<uint8_t> looks_;   ///< Scans that looked through a block in vain.
+  std::vector<uint8_t> missed_;  ///< Scans that should have seen an element in a block.
+  std::vector<SurfaceElement> elements_;
+};
+
+}  // namespace nbs

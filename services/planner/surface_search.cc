@@ -1,0 +1,165 @@
+#include "services/planner/surface_search.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+namespace nbs {
+namespace {
+
+/// Seeds whose normals differ by more than this may lie side by side.
+constexpr float kSeedCosine = 0.7f;
+/// Elements whose normals differ by more than this from the seed's are not of its patch.
+constexpr float kPatchCosine = 0.3f;
+/// Moves that keep this share of the gain stay candidates.
+constexpr double kNearlyAsGood = 0.9;
+constexpr double kUnlike_m = 0.08;
+constexpr double kUnlike_rad = 0.4;
+
+struct Proposal {
+  ScanPath path;
+  double gain_nat = 0.0;
+};
+
+std::vector<uint32_t> ChooseSeeds(std::span<const SurfaceElement> elements, double spacing_m) {
+  std::vector<uint32_t> seeds;
+  for (uint32_t i = 0; i < elements.size(); ++i) {
+    const auto is_near = [&](uint32_t seed) {
+      return (elements[seed].p_W - elements[i].p_W).squaredNorm() < spacing_m * spacing_m &&
+             elements[seed].normal_W.dot(elements[i].normal_W) > kSeedCosine;
+    };
+    if (std::ranges::none_of(seeds, is_near)) seeds.push_back(i);
+  }
+  return seeds;
+}
+
+/// The paths over the patch around a seed.
+void AddSeedPaths(std::span<const SurfaceElement> elements, const SurfaceElement& seed, double standoff_m,
+                  const SurfaceSearchSettings& settings, std::vector<ScanPath>& paths) {
+  Eigen::Vector3d mean_W = Eigen::Vector3d::Zero(), normal_W = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  double weight = 0.0;
+  for (const SurfaceElement& e : elements) {
+    if ((e.p_W - seed.p_W).squaredNorm() > settings.patch_radius_m * settings.patch_radius_m) continue;
+    if (e.normal_W.dot(seed.normal_W) < kPatchCosine) continue;
+    const Eigen::Vector3d p_W = (e.p_W - seed.p_W).cast<double>();
+    mean_W += e.area_m2 * p_W;
+    normal_W += e.area_m2 * e.normal_W.cast<double>();
+    second += e.area_m2 * p_W * p_W.transpose();
+    weight += e.area_m2;
+  }
+  if (weight <= 0.0 || normal_W.norm() < 1e-3 * weight) return;
+  mean_W /= weight;
+  normal_W.normalize();
+  const Eigen::Matrix3d flat = Eigen::Matrix3d::Identity() - normal_W * normal_W.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(flat * (second / weight - mean_W * mean_W.transpose()) *
+                                                            flat);
+  for (int axis : {2, 1}) {
+    const Eigen::Vector3d along_W = axes.eigenvectors().col(axis);
+    if (std::abs(along_W.dot(normal_W)) > 0.5) continue;  // A patch without extent has the normal for an axis.
+    for (double extent_m : {settings.short_m, settings.long_m}) {
+      const Strip strip{seed.p_W.cast<double>() + mean_W, normal_W, along_W, extent_m};
+      paths.push_back(MakeStripPath(strip, {}, standoff_m, settings.limits));
+    }
+  }
+}
+
+/// The ways in which a path is varied, each by the scale or against it: its middle along x, y, z of S; turned about x,
+/// y, z of S around the point it looks at; lengthened.
+constexpr int kMoves = 14;
+
+ScanPath Move(const ScanPath& path, int move, double scale, double standoff_m, const PathLimits& limits) {
+  constexpr std::array<double, 3> kShift_m = {0.06, 0.06, 0.04};
+  constexpr std::array<double, 3> kTurn_rad = {0.3, 0.3, 0.4};
+  constexpr double kLengthen_m = 0.12;
+  const int kind = move / 2, axis = kind % 3;
+  const double by = move % 2 == 0 ? scale : -scale;
+  Eigen::Matrix3d R_WS = path.X_WS_start.linear();
+  Eigen::Vector3d half_W = 0.5 * (path.X_WS_end.translation() - path.X_WS_start.translation());
+  Eigen::Vector3d target_W = path.X_WS_start.translation() + half_W + standoff_m * R_WS.col(2);
+  if (kind < 3) {
+    target_W += by * kShift_m.at(axis) * R_WS.col(axis);
+  } else if (kind < 6) {
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(by * kTurn_rad.at(axis), Eigen::Vector3d(R_WS.col(axis))).toRotationMatrix();
+    R_WS = turn * R_WS;
+    half_W = turn * half_W;
+  } else {
+    const double length_m = std::clamp(2.0 * half_W.norm() + by * kLengthen_m, limits.min_m, limits.max_m);
+    half_W *= 0.5 * length_m / half_W.norm();
+  }
+  ScanPath moved;
+  moved.X_WS_start.linear() = R_WS;
+  moved.X_WS_end.linear() = R_WS;
+  moved.X_WS_start.translation() = target_W - standoff_m * R_WS.col(2) - half_W;
+  moved.X_WS_end.translation() = target_W - standoff_m * R_WS.col(2) + half_W;
+  return moved;
+}
+
+std::vector<Proposal> Rate(const std::vector<ScanPath>& paths,
+                           const std::function<std::vector<double>(std::span<const ScanPath>)>& calc_gains) {
+  const std::vector<double> gains_nat = calc_gains(paths);
+  std::vector<Proposal> proposals;
+  proposals.reserve(paths.size());
+  for (size_t i = 0; i < paths.size(); ++i) proposals.push_back({paths[i], gains_nat[i]});
+  return proposals;
+}
+
+void SortByGain(std::vector<Proposal>& proposals) {
+  std::ranges::stable_sort(proposals, [](const Proposal& a, const Proposal& b) { return a.gain_nat > b.gain_nat; });
+}
+
+/// The first of `sorted` that are not alike, at most `count`.
+std::vector<Proposal> TakeUnlike(const std::vector<Proposal>& sorted, size_t count, double alike_m, double alike_rad) {
+  std::vector<Proposal> taken;
+  for (const Proposal& proposal : sorted) {
+    if (taken.size() >= count) break;
+    const auto is_alike = [&](const Proposal& other) {
+      return AreAlike(proposal.path, other.path, alike_m, alike_rad);
+    };
+    if (std::ranges::none_of(taken, is_alike)) taken.push_back(proposal);
+  }
+  return taken;
+}
+
+}  // namespace
+
+std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, const SurfaceView& view,
+                                       const Profiler& profiler, double voxel_m,
+                                       const SurfaceSearchSettings& settings) {
+  const auto calc_gains = [&](std::span<const ScanPath> paths) {
+    return view.CalcGains(prediction, paths, voxel_m, settings.threads);
+  };
+  const std::span<const SurfaceElement> elements = prediction.elements();
+  std::vector<ScanPath> paths;
+  for (uint32_t seed : ChooseSeeds(elements, settings.seed_spacing_m))
+    AddSeedPaths(elements, elements[seed], profiler.standoff_m, settings, paths);
+  std::vector<Proposal> proposals = Rate(paths, calc_gains);
+  SortByGain(proposals);
+
+  for (Proposal best : TakeUnlike(proposals, settings.improve, kUnlike_m, kUnlike_rad)) {
+    double scale = 1.0;
+    for (int round = 0; round < settings.rounds; ++round) {
+      std::vector<ScanPath> moved;
+      for (int move = 0; move < kMoves; ++move)
+        moved.push_back(Move(best.path, move, scale, profiler.standoff_m, settings.limits));
+      const double gain_before = best.gain_nat;
+      for (const Proposal& trial : Rate(moved, calc_gains)) {
+        if (trial.gain_nat > kNearlyAsGood * gain_before) proposals.push_back(trial);
+        if (trial.gain_nat > best.gain_nat) best = trial;
+      }
+      if (best.gain_nat <= gain_before) scale *= 0.5;
+    }
+  }
+  SortByGain(proposals);
+  std::vector<ScanPath> found;
+  for (const Proposal& proposal :
+       TakeUnlike(proposals, settings.max_candidates, settings.alike_m, settings.alike_rad)) {
+    if (proposal.gain_nat > 0.0) found.push_back(proposal.path);
+  }
+  return found;
+}
+
+}  // namespace nbs

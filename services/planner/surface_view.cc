@@ -1,0 +1,90 @@
+#include "services/planner/surface_view.h"
+
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "common/mapping/ray_walk.h"
+
+namespace nbs {
+namespace {
+
+/// The prediction is coarse: walls so many blocks before an element do not hide it.
+constexpr float kBlindBlocks = 2.0f;
+
+/// Whether an element can be seen from a point.
+bool IsInSight(const SurfacePrediction& prediction, const Eigen::Vector3f& from_W, const Eigen::Vector3f& element_W) {
+  const float blind_m = kBlindBlocks * static_cast<float>(prediction.shape().resolution_m);
+  const Eigen::Vector3f line_W = element_W - from_W;
+  const float length = line_W.norm();
+  if (length <= blind_m) return true;
+  const Eigen::Vector3f to_W = from_W + line_W * (1.0f - blind_m / length);
+  bool clear = true;
+  const std::span<const uint8_t> walls = prediction.walls();
+  WalkRay(MakeRayWalk(prediction.shape(), from_W.cast<double>(), to_W.cast<double>()), [&clear, walls](int64_t block) {
+    clear = walls[block] == 0;
+    return clear;
+  });
+  return clear;
+}
+
+}  // namespace
+
+SurfaceView::SurfaceView(const Profiler& profiler, double incidence_margin_rad)
+    : min_depth_m_(static_cast<float>(profiler.min_depth_m)),
+      max_depth_m_(static_cast<float>(profiler.max_depth_m)),
+      tan_half_fan_(static_cast<float>(std::tan(0.5 * profiler.fan_rad))),
+      min_cosine_(static_cast<float>(std::cos(profiler.max_incidence_rad - incidence_margin_rad))),
+      camera_baseline_m_(static_cast<float>(profiler.camera_baseline_m)) {}
+
+template <typename Visit>
+void SurfaceView::VisitSeen(const SurfacePrediction& prediction, const ScanPath& path, Visit&& visit) const {
+  const Eigen::Vector3f start_W = path.X_WS_start.translation().cast<float>();
+  const Eigen::Vector3f way_W = path.X_WS_end.translation().cast<float>() - start_W;
+  const Eigen::Matrix3f R_WS = path.X_WS_start.linear().cast<float>();
+  const float way_y = way_W.dot(R_WS.col(1));
+  if (std::abs(way_y) < 1e-6f) return;
+  const Eigen::Vector3f to_camera_W = camera_baseline_m_ * R_WS.col(1);
+  const std::span<const SurfaceElement> elements = prediction.elements();
+  for (uint32_t i = 0; i < elements.size(); ++i) {
+    const SurfaceElement& element = elements[i];
+    const float fraction = (element.p_W - start_W).dot(R_WS.col(1)) / way_y;
+    if (!(fraction >= 0.0f && fraction <= 1.0f)) continue;
+    const Eigen::Vector3f emitter_W = start_W + fraction * way_W;
+    const Eigen::Vector3f beam_W = element.p_W - emitter_W;
+    const float depth = beam_W.dot(R_WS.col(2));
+    if (depth < min_depth_m_ || depth > max_depth_m_) continue;
+    if (std::abs(beam_W.dot(R_WS.col(0))) > depth * tan_half_fan_) continue;
+    if (-beam_W.dot(element.normal_W) < beam_W.norm() * min_cosine_) continue;
+    if (!IsInSight(prediction, emitter_W, element.p_W)) continue;
+    if (camera_baseline_m_ != 0.0f && !IsInSight(prediction, emitter_W + to_camera_W, element.p_W)) continue;
+    visit(i);
+  }
+}
+
+double SurfaceView::CalcGain(const SurfacePrediction& prediction, const ScanPath& path, double voxel_m) const {
+  double area_m2 = 0.0;
+  VisitSeen(prediction, path, [&](uint32_t i) { area_m2 += prediction.elements()[i].area_m2; });
+  return area_m2 / (voxel_m * voxel_m) * std::numbers::ln2;
+}
+
+std::vector<double> SurfaceView::CalcGains(const SurfacePrediction& prediction, std::span<const ScanPath> paths,
+                                           double voxel_m, int threads) const {
+  std::vector<double> gains_nat(paths.size());
+  const auto work = [&](size_t first) {
+    for (size_t i = first; i < paths.size(); i += threads) gains_nat[i] = CalcGain(prediction, paths[i], voxel_m);
+  };
+  std::vector<std::jthread> workers;
+  for (int i = 1; i < threads; ++i) workers.emplace_back(work, i);
+  work(0);
+  workers.clear();
+  return gains_nat;
+}
+
+std::vector<uint32_t> SurfaceView::FindSeen(const SurfacePrediction& prediction, const ScanPath& path) const {
+  std::vector<uint32_t> seen;
+  VisitSeen(prediction, path, [&seen](uint32_t i) { seen.push_back(i); });
+  return seen;
+}
+
+}  // namespace nbs

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "services/planner/surface_prediction.h"
+
+namespace nbs {
+
+/// What a scan path would see of the predicted surface.
+///
+/// An element is seen if it comes into the light plane between start and end of the path, there within fan and depth of
+/// field, under an incidence that the profiler can measure with `incidence_margin_rad` to spare (the prediction's
+/// normal is a guess), and neither the laser's nor the camera's line of sight meets a wall of the prediction farther
+/// than two blocks in front of it. The path's orientation is that of its start: candidates do not turn.
+class SurfaceView {
+ public:
+  explicit SurfaceView(const Profiler& profiler, double incidence_margin_rad = 0.1);
+
+  /// Information gain of a path in nats: ln 2 for every voxel face of seen surface, each counted once however many
+  /// beams meet it; eq. 2 with the sum over the cells of a surface instead of over all cells along beams.
+  ///
+  /// @param voxel_m  Edge of a voxel.
+  double CalcGain(const SurfacePrediction& prediction, const ScanPath& path, double voxel_m) const;
+
+  /// The same of each path, evaluated by `threads` threads (>= 1); equal to CalcGain one by one.
+  std::vector<double> CalcGains(const SurfacePrediction& prediction, std::span<const ScanPath> paths, double voxel_m,
+                                int threads) const;
+
+  /// Numbers of the elements that a path sees, ascending.
+  std::vector<uint32_t> FindSeen(const SurfacePrediction& prediction, const ScanPath& path) const;
+
+ private:
+  template <typename Visit>
+  void VisitSeen(const SurfacePrediction& prediction, const ScanPath& path, Visit&& visit) const;
+
+  float min_depth_m_ = 0.0f;
+  float max_depth_m_ = 0.0f;
+  float tan_half_fan_ = 0.0f;
+  float min_cosine_ = 0.0f;
+  float camera_baseline_m_ = 0.0f;
+};
+
+}  // namespace nbs

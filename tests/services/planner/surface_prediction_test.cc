@@ -1,0 +1,130 @@
+#include "services/planner/surface_prediction.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "tests/services/planner/half_seen_ball.h"
+#include "tests/services/planner/synthetic_mesh.h"
+
+namespace nbs {
+namespace {
+
+double CalcArea(const SurfacePrediction& prediction) {
+  double area_m2 = 0.0;
+  for (const SurfaceElement& element : prediction.elements()) area_m2 += element.area_m2;
+  return area_m2;
+}
+
+SurfacePrediction Predict(const HalfSeenBall& ball) {
+  SurfacePrediction prediction(ball.voxels.shape());
+  prediction.Update(ball.voxels, ball.mesh);
+  return prediction;
+}
+
+/// A pass under the ball, looking up at it.
+ScanPath MakePathBelow() {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), along = Eigen::Vector3d::UnitY();
+  return {MakeLookPose({0.0, -0.1, -0.325}, up, along), MakeLookPose({0.0, 0.1, -0.325}, up, along)};
+}
+
+TEST(SurfacePrediction, NothingIsForetoldFromNothing) {
+  const VoxelGrid voxels({Eigen::Vector3d::Zero(), 0.005, Eigen::Vector3i::Constant(20)});
+  SurfacePrediction prediction(voxels.shape());
+  prediction.Update(voxels, {});
+  EXPECT_TRUE(prediction.elements().empty());
+}
+
+TEST(SurfacePrediction, AHalfSeenBallIsClosedBelow) {
+  const SurfacePrediction prediction = Predict(HalfSeenBall());
+  int below = 0;
+  for (const SurfaceElement& element : prediction.elements()) {
+    EXPECT_LT(element.p_W.z(), 0.02f);
+    EXPECT_NEAR(element.normal_W.norm(), 1.0f, 1e-4f);
+    below += element.normal_W.z() < -0.7f;
+  }
+  // Even a flat bottom, without what is near the measured rim, is as large as 64 faces of a block.
+  EXPECT_GT(below, 45);
+  EXPECT_GT(CalcArea(prediction), 0.010);
+  EXPECT_LT(CalcArea(prediction), 0.060);
+}
+
+TEST(SurfacePrediction, KnownFreeSpaceHoldsNoSurface) {
+  const HalfSeenBall ball;
+  for (const SurfaceElement& element : Predict(ball).elements()) {
+    const int64_t cell = FindCell(ball.voxels.shape(), element.p_W.cast<double>());
+    ASSERT_GE(cell, 0);
+    const int16_t log_odds = ball.voxels.cells()[cell];
+    EXPECT_TRUE(log_odds == kUnobserved || log_odds > CalcLogOdds(0.3)) << element.p_W.transpose();
+  }
+}
+
+TEST(SurfacePrediction, TheMoreIsSeenTheLessIsForetold) {
+  const double half = CalcArea(Predict(HalfSeenBall(1.57))), most = CalcArea(Predict(HalfSeenBall(2.5)));
+  EXPECT_LT(most, 0.6 * half);
+}
+
+TEST(SurfacePrediction, AlongTheBorderTheSurfaceGoesOn) {
+  const VoxelGrid voxels({Eigen::Vector3d::Constant(-0.05), 0.005, Eigen::Vector3i::Constant(40)});
+  SurfacePredictionSettings settings;
+  settings.rim_width_m = 0.008;
+  SurfacePrediction prediction(voxels.shape(), settings);
+  prediction.Update(voxels, MakePlaneMesh(21, 11));
+  double area_m2 = 0.0;
+  for (const SurfaceElement& element : prediction.elements()) {
+    const bool is_rim = std::abs(element.p_W.z()) < 1e-6f;
+    if (!is_rim) continue;
+    area_m2 += element.area_m2;
+    EXPECT_GT(element.normal_W.z(), 0.99f);
+    const bool outside =
+        element.p_W.x() < 0 || element.p_W.y() < 0 || element.p_W.x() > 0.06f || element.p_W.y() > 0.03f;
+    EXPECT_TRUE(outside) << element.p_W.transpose();
+  }
+  EXPECT_NEAR(area_m2, 2.0 * (0.060 + 0.030) * 0.008, 1e-6);
+}
+
+TEST(SurfacePrediction, ALookInVainTakesMostOfAnElementsArea) {
+  const HalfSeenBall ball;
+  SurfacePrediction prediction = Predict(ball);
+  const double before = CalcArea(prediction);
+  prediction.AddScan(ball.voxels, Profiler(), MakePathBelow());
+  prediction.Update(ball.voxels, ball.mesh);
+  EXPECT_LT(CalcArea(prediction), 0.7 * before);
+}
+
+TEST(SurfacePrediction, ALookInVainPushesThePredictedSurfaceBack) {
+  const HalfSeenBall ball;
+  const auto lowest = [](const SurfacePrediction& prediction) {
+    float z = 1.0f;
+    for (const SurfaceElement& element : prediction.elements()) z = std::min(z, element.p_W.z());
+    return z;
+  };
+  SurfacePrediction prediction = Predict(ball);
+  const float before = lowest(prediction);
+  prediction.AddScan(ball.voxels, Profiler(), MakePathBelow());
+  prediction.Update(ball.voxels, ball.mesh);
+  EXPECT_GT(lowest(prediction), before + 0.005f);
+}
+
+TEST(SurfacePrediction, TheSameRoundsGiveTheSame) {
+  const HalfSeenBall ball;
+  SurfacePrediction a = Predict(ball), b = Predict(ball);
+  for (SurfacePrediction* each : {&a, &b}) {
+    each->AddScan(ball.voxels, Profiler(), MakePathBelow());
+    each->Update(ball.voxels, ball.mesh);
+  }
+  EXPECT_TRUE(std::ranges::equal(a.potential(), b.potential()));
+  ASSERT_EQ(a.elements().size(), b.elements().size());
+}
+
+TEST(SurfacePrediction, SettingsOutOfRangeAreRefused) {
+  const GridShape shape{Eigen::Vector3d::Zero(), 0.005, Eigen::Vector3i::Constant(4)};
+  EXPECT_THROW(SurfacePrediction(shape, {.cells_per_block = 0}), std::invalid_argument);
+  EXPECT_THROW(SurfacePrediction(shape, {.relaxation = 2.0}), std::invalid_argument);
+  EXPECT_THROW(SurfacePrediction(shape, {.missed_factor = 1.5}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nbs
