@@ -109,17 +109,24 @@ void MakeFolders(const std::filesystem::path& folder) {
   }
 }
 
-/// Section IV-B of the paper: S and B have ends of their own.
-std::string_view FindEnd(std::string_view method) {
-  if (method == "S") return "settled";
-  return method == "B" ? "nothing_left" : "completeness";
+std::string_view FindEnd(const Method& method) {
+  switch (method.end) {
+    case EndRule::kNothingLeft:
+      return "nothing_left";
+    case EndRule::kUnknownSettled:
+      return "settled";
+    default:
+      return "completeness";
+  }
 }
 
 }  // namespace
 
 std::string ListMethods() {
   std::string list;
-  for (std::string_view method : kMethods) list += std::string(method) + " " + std::string(FindEnd(method)) + "\n";
+  for (std::string_view name : MethodNames()) {
+    list += std::string(name) + " " + std::string(FindEnd(FindMethod(name))) + "\n";
+  }
   return list;
 }
 
