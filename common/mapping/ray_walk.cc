@@ -9,8 +9,8 @@ namespace nbs {
 namespace {
 
 constexpr int64_t kRayTicks = int64_t{1} << 30;
-/// A crossing interval longer than the ray is never used up: two rays' length keeps t_max within 32 bits.
-constexpr double kMaxDeltaTicks = 2.0 * kRayTicks;
+/// A crossing interval longer than the ray is never used up: anything above its length keeps t_max within 32 bits.
+constexpr double kMaxDeltaTicks = 1.0 * kRayTicks + 1.0;
 
 /// Further out, doubles begin to lose the fine part of a cell coordinate.
 constexpr double kMaxCells = 1e9;
@@ -82,11 +82,9 @@ RayWalk MakeRayWalk(const GridShape& shape, const Eigen::Vector3d& p_WA, const E
   return ray;
 }
 
-int64_t FindCell(const GridShape& shape, const Eigen::Vector3d& p_W) {
-  const Eigen::Vector3d cell = ToCells(shape, p_W).array().floor().matrix() - OriginInCells(shape);
-  const bool inside = (cell.array() >= 0.0).all() && (cell.array() < shape.size.cast<double>().array()).all();
-  if (!inside) return -1;
-  return shape.Index(static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z()));
-}
+CellFinder::CellFinder(const GridShape& shape)
+    : cells_per_m_(1.0 / shape.resolution_m), low_(OriginInCells(shape)), size_(shape.size) {}
+
+int64_t FindCell(const GridShape& shape, const Eigen::Vector3d& p_W) { return CellFinder(shape).Find(p_W); }
 
 }  // namespace nbs

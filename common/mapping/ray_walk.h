@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "common/mapping/voxel_delta.h"
@@ -28,7 +29,29 @@ struct RayWalk {
 /// @param p_WA, p_WB  Metres; may be equal.
 RayWalk MakeRayWalk(const GridShape& shape, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB);
 
-/// Index of the cell that holds a point; -1 outside the box, or if the point is not finite.
+/// Tells points' cells, many in one grid.
+class CellFinder {
+ public:
+  explicit CellFinder(const GridShape& shape);
+
+  /// Index of the cell that holds a point; -1 outside the box, or if the point is not finite.
+  int64_t Find(const Eigen::Vector3d& p_W) const {
+    int64_t index = 0;
+    for (int axis = 2; axis >= 0; --axis) {
+      const double cell = std::floor(p_W[axis] * cells_per_m_) - low_[axis];
+      if (!(cell >= 0.0 && cell < size_[axis])) return -1;
+      index = index * size_[axis] + static_cast<int64_t>(cell);
+    }
+    return index;
+  }
+
+ private:
+  double cells_per_m_;
+  Eigen::Vector3d low_;  ///< The grid's lowest corner, cells from W's origin.
+  Eigen::Vector3i size_;
+};
+
+/// The same for one point.
 int64_t FindCell(const GridShape& shape, const Eigen::Vector3d& p_W);
 
 /// Calls `visit(index)` for the cells that the segment passes through, from the cell of A to that of B, until it

@@ -74,6 +74,19 @@ class ChangeTracker {
     word |= uint64_t{1} << (index & 63);
   }
 
+  /// The same for many cells.
+  void MarkAll(std::span<const uint32_t> indices) {
+    size_t marked = marked_words_.size();
+    marked_words_.resize(marked + indices.size());
+    for (const uint32_t index : indices) {
+      uint64_t& word = words_[index >> 6];
+      marked_words_[marked] = index >> 6;
+      marked += word == 0 ? 1 : 0;
+      word |= uint64_t{1} << (index & 63);
+    }
+    marked_words_.resize(marked);
+  }
+
   /// The runs of marked cells with their values in `grid`, ascending; a run of more than 65,535 cells comes in pieces.
   /// Forgets the marks. Time, scan and end_of_scan are left at their defaults.
   VoxelDelta TakeDelta(const VoxelGrid& grid);

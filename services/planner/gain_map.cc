@@ -68,14 +68,14 @@ std::vector<uint16_t> MakeTable(GainRule rule) {
 }  // namespace
 
 GainMap::GainMap(const VoxelGrid& grid, GainRule rule, double reach_m)
-    : shape_(grid.shape()), values_(grid.cells().size()) {
+    : shape_(grid.shape()), values_(grid.cells().size() + 1) {
   const double radius_cells = reach_m / shape_.resolution_m;
   if (!(radius_cells >= 0.0 && radius_cells <= 60.0))
     throw std::invalid_argument("GainMap: a reach of " + std::to_string(reach_m) + " m");
   if (rule == GainRule::kUnknownCount) unit_ = EntropyTable()[static_cast<uint16_t>(kUnobserved)];
   const std::vector<uint16_t> table = MakeTable(rule);
   bool has_wall = false;
-  for (size_t i = 0; i < values_.size(); ++i) {
+  for (size_t i = 0; i < grid.cells().size(); ++i) {
     values_[i] = table[static_cast<uint16_t>(grid.cells()[i])];
     has_wall |= values_[i] == kWall;
   }

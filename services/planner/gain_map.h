@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "common/mapping/ray_bundle.h"
 #include "common/mapping/voxel_grid.h"
 #include "common/planning/gain_rule.h"
 
@@ -22,9 +23,9 @@ namespace nbs {
 class GainMap {
  public:
   /// Value of an occupied cell: beams end before it.
-  static constexpr uint16_t kWall = 0xffff;
+  static constexpr uint16_t kWall = RayBundle::kWall;
   /// Value of an unknown cell under kUnknownCount: beams end in it and gain 1. Above every entropy.
-  static constexpr uint16_t kGoal = 0xfffe;
+  static constexpr uint16_t kGoal = RayBundle::kGoal;
 
   /// @param reach_m  Metres between the centres of two cells, >= 0; at most 60 cells.
   /// @throws std::invalid_argument if reach_m is out of range.
@@ -32,7 +33,8 @@ class GainMap {
 
   const GridShape& shape() const { return shape_; }
   /// By cell index: gain in unit() / 65536 nat, kWall or kGoal.
-  std::span<const uint16_t> values() const { return values_; }
+  /// One more entry lies behind the last cell, for RayBundle::Sum.
+  std::span<const uint16_t> values() const { return std::span(values_).first(values_.size() - 1); }
   /// By what a sum over values must be multiplied: ln 2 (65536 times) for kUnknownCount, else 1.
   int64_t unit() const { return unit_; }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "common/mapping/ray_bundle.h"
 #include "common/planning/scan_path.h"
 #include "common/sensing/profiler.h"
 #include "services/planner/gain_map.h"
@@ -32,7 +33,8 @@ inline constexpr GainSampling kSixtyFourth = {8, 8};
 /// threads.
 class InformationGain {
  public:
-  explicit InformationGain(const Profiler& profiler);
+  /// @param lanes  Instruction set; the gain is the same with each.
+  explicit InformationGain(const Profiler& profiler, LaneSet lanes = FindWidestLanes());
 
   /// Stripes that the profiler takes along a path: one every scan_speed / rate metres from the start on, at least one.
   int CountStripes(const ScanPath& path) const;
@@ -54,10 +56,18 @@ class InformationGain {
   std::vector<int64_t> CalcPerStripe(const GainMap& map, const ScanPath& path, int beam_step) const;
 
  private:
-  int64_t CalcStripe(const GainMap& map, const Pose& X_WS, int beam_step) const;
+  /// What evaluating one path after the other needs again and again.
+  struct Workspace {
+    RayBundle rays;
+    std::vector<Eigen::Vector3d> ends_W;
+  };
+  Workspace MakeWorkspace(const GainMap& map) const { return {RayBundle(map.shape(), lanes_), {}}; }
+  int64_t CalcPath(const GainMap& map, const ScanPath& path, GainSampling sampling, Workspace& workspace) const;
+  int64_t CalcStripe(const GainMap& map, const Pose& X_WS, int beam_step, Workspace& workspace) const;
 
   double stripe_spacing_m_ = 0.0;
   double max_depth_m_ = 0.0;
+  LaneSet lanes_;
   std::vector<Eigen::Vector3d> beams_S_;  ///< From the emitter to the largest depth, metres.
 };
 

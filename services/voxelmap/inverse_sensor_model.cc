@@ -1,8 +1,10 @@
 #include "services/voxelmap/inverse_sensor_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "common/runtime/error.h"
 
@@ -46,21 +48,27 @@ LogOddsSteps MakeLogOddsSteps(const InverseSensorModelSettings& settings) {
 }
 
 StripeEvidence CalcStripeEvidence(const Profiler& profiler, const std::vector<Eigen::Vector3d>& directions_S,
-                                  double free_margin_sigma, const Stripe& stripe) {
-  StripeEvidence evidence;
+                                  double free_margin_sigma, const Stripe& stripe, StripeEvidence memory) {
+  StripeEvidence evidence = std::move(memory);
   const Eigen::Vector3d p_WS = stripe.X_WS.translation();
-  const Eigen::Vector3d p_WC = stripe.X_WS * Eigen::Vector3d(0.0, profiler.camera_baseline_m, 0.0);
+  const bool has_camera = profiler.camera_baseline_m > 0.0;
+  evidence.hits_W.clear();
+  evidence.fans.resize(has_camera ? 2 : 1);
+  for (FreeFan& fan : evidence.fans) fan.ends_W.clear();
+  evidence.fans[0].p_WA = p_WS;
+  if (has_camera) evidence.fans[1].p_WA = stripe.X_WS * Eigen::Vector3d(0.0, profiler.camera_baseline_m, 0.0);
   for (size_t i = 0; i < stripe.ranges_m.size(); ++i) {
     const double range = stripe.ranges_m[i];
     const double depth = range * directions_S[i].z();
     if (!(range > 0.0) || depth < profiler.min_depth_m - kDepthTolerance ||
         depth > profiler.max_depth_m + kDepthTolerance)
       continue;
-    const Eigen::Vector3d p_WP = stripe.X_WS * (range * directions_S[i]);
+    const Eigen::Vector3d beam_W = stripe.X_WS.linear() * directions_S[i];
+    const Eigen::Vector3d p_WP = p_WS + range * beam_W;
     const double margin = free_margin_sigma * CalcRangeSigma(profiler, depth);
     evidence.hits_W.push_back(p_WP);
-    evidence.free_rays.push_back({p_WS, CalcPointBefore(p_WS, p_WP, margin)});
-    if (profiler.camera_baseline_m > 0.0) evidence.free_rays.push_back({p_WC, CalcPointBefore(p_WC, p_WP, margin)});
+    evidence.fans[0].ends_W.push_back(p_WS + std::max(range - margin, 0.0) * beam_W);
+    if (has_camera) evidence.fans[1].ends_W.push_back(CalcPointBefore(evidence.fans[1].p_WA, p_WP, margin));
   }
   return evidence;
 }

@@ -16,6 +16,7 @@ struct InverseSensorModelSettings {
   double min_probability = 0.007;  ///< Clamps: a cell never gets surer than this.
   double max_probability = 0.993;
   double free_margin_sigma = 3.0;  ///< k: a beam with range z frees up to z - k sigma(z).
+  bool spare_occupied = true;      ///< An occupied cell takes passes more slowly (MapUpdate); false: as any other.
 };
 
 /// The model's weights as log-odds in 1/1024 nat.
@@ -31,16 +32,16 @@ struct LogOddsSteps {
 ///         does not make it occupied, or the highest probability is not occupied.
 LogOddsSteps MakeLogOddsSteps(const InverseSensorModelSettings& settings);
 
-/// A straight line that is proven clear from a viewpoint (emitter or camera) up to the cell before `p_WB`.
-struct FreeRay {
+/// Straight lines that are proven clear from a viewpoint (emitter or camera) up to the cell before each end.
+struct FreeFan {
   Eigen::Vector3d p_WA;
-  Eigen::Vector3d p_WB;
+  std::vector<Eigen::Vector3d> ends_W;  ///< One per return.
 };
 
 /// What one stripe proves.
 struct StripeEvidence {
   std::vector<Eigen::Vector3d> hits_W;  ///< Points of the surface, one per return.
-  std::vector<FreeRay> free_rays;
+  std::vector<FreeFan> fans;            ///< The emitter's and, if there is one, the camera's.
 };
 
 /// The geometry of a stripe after the inverse sensor model (section III-C): per beam with range z a point at z and a
@@ -50,8 +51,9 @@ struct StripeEvidence {
 /// field.
 ///
 /// @param directions_S  CalcBeamDirections_S of the profiler.
+/// @param memory  An evidence that is no longer needed; its memory is used again.
 /// @pre  stripe.ranges_m has one entry per direction, or none.
 StripeEvidence CalcStripeEvidence(const Profiler& profiler, const std::vector<Eigen::Vector3d>& directions_S,
-                                  double free_margin_sigma, const Stripe& stripe);
+                                  double free_margin_sigma, const Stripe& stripe, StripeEvidence memory = {});
 
 }  // namespace nbs

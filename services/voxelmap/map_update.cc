@@ -1,69 +1,91 @@
 #include "services/voxelmap/map_update.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace nbs {
 
-MapUpdate::MapUpdate(const GridShape& shape, const Profiler& profiler, const InverseSensorModelSettings& settings)
+MapUpdate::MapUpdate(const GridShape& shape, const Profiler& profiler, const InverseSensorModelSettings& settings,
+                     LaneSet lanes)
     : profiler_(profiler),
       settings_(settings),
       steps_(MakeLogOddsSteps(settings)),
       directions_S_(CalcBeamDirections_S(profiler)),
       grid_(shape),
+      finder_(shape),
+      rays_(shape, lanes),
       changes_(shape.cells()),
-      touched_(shape.cells(), 0),
+      touched_words_((shape.cells() + 63) / 64, 0),
       judged_(shape.cells(), 0) {}
 
 void MapUpdate::Insert(const Stripe& stripe) {
   BeginStripe();
-  const StripeEvidence evidence = CalcStripeEvidence(profiler_, directions_S_, settings_.free_margin_sigma, stripe);
+  evidence_ = CalcStripeEvidence(profiler_, directions_S_, settings_.free_margin_sigma, stripe, std::move(evidence_));
   const uint16_t scan = static_cast<uint16_t>(stripe.scan + 1);
-  for (const Eigen::Vector3d& p_W : evidence.hits_W) {
-    const int64_t index = FindCell(grid_.shape(), p_W);
-    if (index >= 0) ApplyHit(index, scan);
+  for (const Eigen::Vector3d& p_W : evidence_.hits_W) {
+    const int64_t index = finder_.Find(p_W);
+    if (index >= 0) ApplyHit(static_cast<uint32_t>(index), scan);
   }
-  for (const FreeRay& free_ray : evidence.free_rays) {
-    RayWalk ray = MakeRayWalk(grid_.shape(), free_ray.p_WA, free_ray.p_WB);
-    // The last cell is that of z - k sigma, unless the walk was cut at the box before it.
-    if (FindCell(grid_.shape(), free_ray.p_WB) >= 0) --ray.steps;
-    WalkRay(ray, [&](int64_t index) {
-      ApplyPass(index, scan);
-      return true;
-    });
+  for (const FreeFan& fan : evidence_.fans) {
+    rays_.Set(fan.p_WA, fan.ends_W, LastCell::kLeftOut);
+    ApplyPasses(TakeFresh(rays_.ListCells()), scan);
   }
 }
 
 void MapUpdate::BeginStripe() {
-  if (++stripe_stamp_ != 0) return;
-  std::fill(touched_.begin(), touched_.end(), uint16_t{0});
-  stripe_stamp_ = 1;
+  for (const uint32_t index : touched_) touched_words_[index >> 6] = 0;
+  touched_.clear();
 }
 
-void MapUpdate::ApplyHit(int64_t index, uint16_t scan) {
-  if (touched_[index] == stripe_stamp_) return;
-  touched_[index] = stripe_stamp_;
+void MapUpdate::ApplyHit(uint32_t index, uint16_t scan) {
+  uint64_t& word = touched_words_[index >> 6];
+  const uint64_t bit = uint64_t{1} << (index & 63);
+  if ((word & bit) != 0) return;
+  word |= bit;
+  touched_.push_back(index);
   judged_[index] = scan;
-  const int before = grid_.cells()[index];
-  Change(index, std::min<int>((before == kUnobserved ? 0 : before) + steps_.hit, steps_.highest));
-}
-
-inline void MapUpdate::ApplyPass(int64_t index, uint16_t scan) {
-  if (touched_[index] == stripe_stamp_) return;
-  touched_[index] = stripe_stamp_;
-  const int16_t before = grid_.cells()[index];
-  if (before == steps_.lowest) return;
-  if (IsOccupied(before)) {
-    if (judged_[index] == scan) return;
-    judged_[index] = scan;
-  }
-  Change(index, std::max<int>((before == kUnobserved ? 0 : before) - steps_.miss, steps_.lowest));
-}
-
-inline void MapUpdate::Change(int64_t index, int log_odds) {
   int16_t& cell = grid_.cells()[index];
-  if (cell == log_odds) return;
-  cell = static_cast<int16_t>(log_odds);
+  const int after = std::min<int>((cell == kUnobserved ? 0 : cell) + steps_.hit, steps_.highest);
+  if (cell == after) return;
+  cell = static_cast<int16_t>(after);
   changes_.Mark(index);
+}
+
+std::span<uint32_t> MapUpdate::TakeFresh(std::span<uint32_t> cells) {
+  size_t fresh = 0;
+  for (const uint32_t index : cells) {
+    uint64_t& word = touched_words_[index >> 6];
+    const uint64_t touched = word, bit = uint64_t{1} << (index & 63);
+    __builtin_prefetch(grid_.cells().data() + index, 1);
+    // Without a branch: whether a cell was touched is a toss-up.
+    cells[fresh] = index;
+    fresh += (touched & bit) == 0 ? 1 : 0;
+    word = touched | bit;
+  }
+  touched_.insert(touched_.end(), cells.begin(), cells.begin() + fresh);
+  return cells.first(fresh);
+}
+
+void MapUpdate::ApplyPasses(std::span<uint32_t> fresh, uint16_t scan) {
+  int16_t* log_odds = grid_.cells().data();
+  const int miss = steps_.miss, lowest = steps_.lowest;
+  size_t changed = 0;
+  for (const uint32_t index : fresh) {
+    const int16_t before = log_odds[index];
+    if (IsOccupied(before)) [[unlikely]] {
+      if (!TakesPass(index, scan)) continue;
+    }
+    const int after = std::max((before == kUnobserved ? 0 : before) - miss, lowest);
+    log_odds[index] = static_cast<int16_t>(after);
+    fresh[changed] = index;
+    changed += after != before ? 1 : 0;
+  }
+  changes_.MarkAll(fresh.first(changed));
+}
+
+bool MapUpdate::TakesPass(uint32_t index, uint16_t scan) {
+  if (!settings_.spare_occupied) return true;
+  return std::exchange(judged_[index], scan) != scan;
 }
 
 }  // namespace nbs

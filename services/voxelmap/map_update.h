@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "common/mapping/ray_bundle.h"
 #include "common/mapping/ray_walk.h"
 #include "common/mapping/voxel_grid.h"
 #include "common/sensing/profiler.h"
@@ -23,7 +25,8 @@ namespace nbs {
 class MapUpdate {
  public:
   /// @throws ConfigError for bad settings (MakeLogOddsSteps) or a bad shape (VoxelGrid).
-  MapUpdate(const GridShape& shape, const Profiler& profiler, const InverseSensorModelSettings& settings = {});
+  MapUpdate(const GridShape& shape, const Profiler& profiler, const InverseSensorModelSettings& settings = {},
+            LaneSet lanes = FindWidestLanes());
 
   /// Folds a stripe in. Cells outside the grid are left alone.
   ///
@@ -37,20 +40,27 @@ class MapUpdate {
 
  private:
   void BeginStripe();
-  void ApplyHit(int64_t index, uint16_t scan);
-  void ApplyPass(int64_t index, uint16_t scan);
-  void Change(int64_t index, int log_odds);
+  void ApplyHit(uint32_t index, uint16_t scan);
+  /// Keeps the cells that no other beam of the stripe has touched.
+  std::span<uint32_t> TakeFresh(std::span<uint32_t> cells);
+  /// One pass of each; uses the list up.
+  void ApplyPasses(std::span<uint32_t> fresh, uint16_t scan);
+  /// Whether an occupied cell takes a pass, which it then has.
+  bool TakesPass(uint32_t index, uint16_t scan);
 
   Profiler profiler_;
   InverseSensorModelSettings settings_;
   LogOddsSteps steps_;
   std::vector<Eigen::Vector3d> directions_S_;
   VoxelGrid grid_;
+  StripeEvidence evidence_;  ///< Of the last stripe; kept for its memory.
+  CellFinder finder_;
+  RayBundle rays_;
   ChangeTracker changes_;
-  uint16_t stripe_stamp_ = 0;
-  std::vector<uint16_t> touched_;  ///< Stamp of the last stripe that touched the cell.
-  std::vector<uint16_t> judged_;   ///< Scan + 1 (its low 16 bits) that last hit the cell, or passed through it while it
-                                   ///< was occupied; 0: none.
+  std::vector<uint64_t> touched_words_;  ///< One bit per cell: whether the stripe touched it.
+  std::vector<uint32_t> touched_;        ///< These cells.
+  std::vector<uint16_t> judged_;  ///< Scan + 1 (its low 16 bits) that last hit the cell, or passed through it while it
+                                  ///< was occupied; 0: none.
 };
 
 }  // namespace nbs

@@ -22,7 +22,7 @@ TEST(InverseSensorModel, NoReturnProvesNothing) {
   const Profiler profiler;
   const StripeEvidence evidence = Calc(profiler, MakeStripe(profiler, 0.0F));
   EXPECT_TRUE(evidence.hits_W.empty());
-  EXPECT_TRUE(evidence.free_rays.empty());
+  EXPECT_TRUE(evidence.fans[0].ends_W.empty());
 }
 
 TEST(InverseSensorModel, AReturnOutsideTheDepthOfFieldProvesNothing) {
@@ -37,13 +37,14 @@ TEST(InverseSensorModel, AReturnClearsTheLineFromTheEmitterToKSigmaBeforeIt) {
   const Profiler profiler;
   const Stripe stripe = MakeStripe(profiler, 0.4F);
   const StripeEvidence evidence = Calc(profiler, stripe);
-  ASSERT_EQ(evidence.free_rays.size(), 224U);
+  ASSERT_EQ(evidence.fans.size(), 1U);
+  ASSERT_EQ(evidence.fans[0].ends_W.size(), 224U);
+  EXPECT_LT((evidence.fans[0].p_WA - stripe.X_WS.translation()).norm(), 1e-12);
   for (int i = 0; i < 224; ++i) {
     const Eigen::Vector3d beam_W = stripe.X_WS.linear() * CalcBeamDirection_S(profiler, i);
     const double sigma = CalcRangeSigma(profiler, 0.4F * CalcBeamDirection_S(profiler, i).z());
     EXPECT_LT((evidence.hits_W[i] - (stripe.X_WS.translation() + 0.4F * beam_W)).norm(), 1e-12);
-    EXPECT_LT((evidence.free_rays[i].p_WA - stripe.X_WS.translation()).norm(), 1e-12);
-    EXPECT_LT((evidence.free_rays[i].p_WB - (evidence.hits_W[i] - 3.0 * sigma * beam_W)).norm(), 1e-12);
+    EXPECT_LT((evidence.fans[0].ends_W[i] - (evidence.hits_W[i] - 3.0 * sigma * beam_W)).norm(), 1e-12);
   }
 }
 
@@ -52,10 +53,11 @@ TEST(InverseSensorModel, TheCameraClearsItsOwnLineIfThereIsABaseline) {
   profiler.camera_baseline_m = 0.12;
   const Stripe stripe = MakeStripe(profiler, 0.4F);
   const StripeEvidence evidence = Calc(profiler, stripe);
-  ASSERT_EQ(evidence.free_rays.size(), 448U);
+  ASSERT_EQ(evidence.fans.size(), 2U);
+  ASSERT_EQ(evidence.fans[1].ends_W.size(), 224U);
   const Eigen::Vector3d p_WC = stripe.X_WS * Eigen::Vector3d(0.0, 0.12, 0.0);
-  EXPECT_LT((evidence.free_rays[1].p_WA - p_WC).norm(), 1e-12);
-  const Eigen::Vector3d to_end = evidence.free_rays[1].p_WB - p_WC, to_hit = evidence.hits_W[0] - p_WC;
+  EXPECT_LT((evidence.fans[1].p_WA - p_WC).norm(), 1e-12);
+  const Eigen::Vector3d to_end = evidence.fans[1].ends_W[0] - p_WC, to_hit = evidence.hits_W[0] - p_WC;
   EXPECT_LT(to_end.cross(to_hit).norm(), 1e-12);
   EXPECT_LT(to_end.norm(), to_hit.norm());
 }
