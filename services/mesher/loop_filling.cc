@@ -31,6 +31,13 @@ bool StandsOnNoHead(const Eigen::Vector3f& normal_W, const SurfaceCorner& a, con
          normal_W.dot(c.normal_W) > kLeastCosine;
 }
 
+bool FacesMean(const Eigen::Vector3f& normal_W, const SurfaceCorner& a, const SurfaceCorner& b,
+               const SurfaceCorner& c) {
+  constexpr float kLeastCosine = 0.2f;
+  const Eigen::Vector3f sum_W = a.normal_W + b.normal_W + c.normal_W;
+  return normal_W.dot(sum_W) > kLeastCosine * sum_W.norm();
+}
+
 /// Twice the area of the loop as a vector (Newell); zero if it runs the wrong way round.
 Eigen::Vector3f CalcLoopNormal(std::span<const SurfaceCorner> corners) {
   Eigen::Vector3f area = Eigen::Vector3f::Zero(), normals = Eigen::Vector3f::Zero();
@@ -84,11 +91,14 @@ class LoopTable {
     }
   }
 
+  /// Towards the side of the whole loop, or, where the loop lies around a rim, of its own corners.
   bool FacesLoop(uint32_t i, uint32_t k, uint32_t j) const {
     constexpr float kLeastCosine = 0.1f;
+    const SurfaceCorner &a = corners_[i], &b = corners_[k], &c = corners_[j];
     Eigen::Vector3f normal_W;
-    return CalcTriangleNormal(corners_[i], corners_[k], corners_[j], normal_W) &&
-           normal_W.dot(normal_W_) > kLeastCosine && StandsOnNoHead(normal_W, corners_[i], corners_[k], corners_[j]);
+    if (normal_W_.isZero() || !CalcTriangleNormal(a, b, c, normal_W) || !StandsOnNoHead(normal_W, a, b, c))
+      return false;
+    return normal_W.dot(normal_W_) > kLeastCosine || FacesMean(normal_W, a, b, c);
   }
 
   std::span<const SurfaceCorner> corners_;
@@ -101,10 +111,7 @@ class LoopTable {
 
 bool FacesItsNormals(const SurfaceCorner& a, const SurfaceCorner& b, const SurfaceCorner& c) {
   Eigen::Vector3f normal_W;
-  if (!CalcTriangleNormal(a, b, c, normal_W)) return false;
-  constexpr float kLeastCosine = 0.2f;
-  const Eigen::Vector3f sum_W = a.normal_W + b.normal_W + c.normal_W;
-  return normal_W.dot(sum_W) > kLeastCosine * sum_W.norm() && StandsOnNoHead(normal_W, a, b, c);
+  return CalcTriangleNormal(a, b, c, normal_W) && FacesMean(normal_W, a, b, c) && StandsOnNoHead(normal_W, a, b, c);
 }
 
 std::vector<std::array<uint32_t, 3>> TriangulateLoop(std::span<const SurfaceCorner> corners,

@@ -20,7 +20,7 @@ struct SurfaceCorner {
 /// "Minimal triangulations of polygonal domains", 1980). Ties go to the smaller corner numbers, so that the result is a
 /// rule and not luck. What is invented is no more than an edge across a gap that measured surface surrounds.
 ///
-/// @param corners   3 to 16, counter-clockwise seen from the normals' side. A loop that runs the other way, as the rim
+/// @param corners   3 to 24, counter-clockwise seen from the normals' side. A loop that runs the other way, as the rim
 /// of an island does, has no filling.
 /// @param may_join  may_join(i, j), i < j: a diagonal between these corners is allowed.
 /// @returns Triangles as corner numbers, counter-clockwise; empty if there is no such triangulation.

@@ -21,7 +21,7 @@ struct TriangulationSettings {
   /// The slope may exceed what half the angle between the normals explains by this.
   float slope_margin = 0.15f;
   /// A loop of at most so many edges is closed if that takes no diagonal longer than max_bridge_m.
-  size_t max_loop_edges = 16;
+  size_t max_loop_edges = 24;
   float max_bridge_m = 0.007f;
   /// Parts of fewer triangles, joined to nothing by an edge, are held back until they grow.
   size_t least_part = 12;

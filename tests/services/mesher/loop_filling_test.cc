@@ -71,6 +71,31 @@ TEST(LoopFilling, StarShapedLoopsAreCoveredOnceAndWholly) {
   }
 }
 
+/// A loop around the rim of a plate 3 mm thick, with parts of both of its faces.
+std::vector<SurfaceCorner> MakeLoopAroundARim() {
+  const std::vector<std::pair<Vector3f, Vector3f>> corners{
+      {{-49.7f, 8.5f, 1.0f}, {-0.74f, 0.0f, 0.67f}},   {{-47.9f, 9.7f, 1.5f}, {-0.15f, 0.0f, 0.99f}},
+      {{-48.0f, 13.7f, 1.5f}, {-0.14f, 0.0f, 0.99f}},  {{-49.7f, 12.4f, 1.1f}, {-0.73f, 0.0f, 0.69f}},
+      {{-49.9f, 10.6f, -1.4f}, {-0.99f, 0.0f, 0.15f}}, {{-49.7f, 12.2f, -1.1f}, {-0.77f, 0.0f, -0.64f}},
+      {{-47.9f, 10.3f, -1.4f}, {0.0f, 0.0f, -1.0f}},   {{-49.7f, 8.0f, -1.0f}, {-0.76f, 0.0f, -0.65f}}};
+  std::vector<SurfaceCorner> loop;
+  for (const auto& [p, n] : corners) loop.push_back({1e-3f * p, n.normalized()});
+  return loop;
+}
+
+TEST(LoopFilling, LoopAroundARimIsFilledFacingItsNormals) {
+  const auto corners = MakeLoopAroundARim();
+  const auto triangles = TriangulateLoop(corners, Always);
+  ASSERT_EQ(triangles.size(), 6u);
+  for (const auto& t : triangles) EXPECT_TRUE(FacesItsNormals(corners[t[0]], corners[t[1]], corners[t[2]]));
+}
+
+TEST(LoopFilling, LoopAroundARimThatRunsTheOtherWayHasNoFilling) {
+  auto corners = MakeLoopAroundARim();
+  std::reverse(corners.begin(), corners.end());
+  EXPECT_TRUE(TriangulateLoop(corners, Always).empty());
+}
+
 TEST(LoopFilling, SliverIsNoTriangle) {
   const auto corners = MakeFlat({{0, 0, 0}, {3, 0.01f, 0}, {6, 0, 0}});
   EXPECT_FALSE(FacesItsNormals(corners[0], corners[2], corners[1]));
