@@ -55,17 +55,64 @@ void ReadBody(const StrictReader& reader, StrictReader::Missing missing, std::ve
   }
 }
 
-void ReadTable(const StrictReader& reader, std::optional<double>& table_z_m) {
-  if (!reader.Find("table_z_m")) return;
-  double z = 0.0;
-  reader.Read("table_z_m", z, Range{});
-  table_z_m = z;
+void ReadOptional(const StrictReader& reader, std::string_view key, std::optional<double>& value) {
+  if (!reader.Find(key)) return;
+  double number = 0.0;
+  reader.Read(key, number, Range{});
+  value = number;
+}
+
+void ReadTable(const StrictReader& reader, CellConfig& cell) {
+  ReadOptional(reader, "table_z_m", cell.table_z_m);
+  ReadOptional(reader, "table_above_object_m", cell.table_above_object_m);
+  reader.Read("table_half_m", cell.table_half_m);
+  if (!(cell.table_half_m.minCoeff() > 0.0)) reader.Fail("table_half_m", "`table_half_m` must be two sizes above 0");
+}
+
+void ReadArmOf(const std::filesystem::path& file, const StrictReader& reader, ArmConfig& arm) {
+  static constexpr std::array<std::string_view, 2> kMethods = {"analytic", "numeric"};
+  std::string urdf;
+  reader.Read("urdf", urdf);
+  if (urdf.empty()) reader.Fail("urdf", "an arm needs `urdf`, the name of its URDF file");
+  arm.urdf = std::filesystem::absolute(file.parent_path() / urdf).lexically_normal();
+  reader.Read("base_link", arm.base_link);
+  reader.Read("flange_link", arm.flange_link);
+  reader.ReadChoice("inverse_kinematics", "inverse kinematics", kMethods, arm.inverse_kinematics);
+  reader.Read("X_OB", arm.X_OB);
+  reader.Read("start_rad", arm.start_rad);
+  reader.Read("max_rad_per_s2", arm.max_rad_per_s2);
+  for (const double limit : arm.max_rad_per_s2) {
+    if (!(limit > 0.0)) reader.Fail("max_rad_per_s2", "`max_rad_per_s2` must hold accelerations above 0");
+  }
+  if (arm.start_rad.empty() || arm.start_rad.size() != arm.max_rad_per_s2.size())
+    reader.Fail("start_rad", "`start_rad` and `max_rad_per_s2` must have a number for each joint");
+  reader.Read("pose_bias_m", arm.pose_bias_m, kNotNegative);
+  reader.Read("pose_noise_m", arm.pose_noise_m, kNotNegative);
+}
+
+void ReadRobot(const std::filesystem::path& file, const StrictReader& reader, StrictReader::Missing missing,
+               CellConfig& cell) {
+  static constexpr std::array<std::string_view, 2> kRobots = {"free", "arm"};
+  reader.ReadChoice("robot", "robot", kRobots, cell.robot);
+  const YamlTree* arm = reader.Find("arm");
+  if (cell.robot == "free") {
+    if (arm) reader.Fail("arm", "`arm` needs `robot: arm`");
+    return;
+  }
+  if (!arm) reader.Fail("arm", "the robot is an arm, but `arm` is missing");
+  ReadArmOf(file,
+            reader.Inner(*arm,
+                         {"urdf", "base_link", "flange_link", "inverse_kinematics", "X_OB", "start_rad",
+                          "max_rad_per_s2", "pose_bias_m", "pose_noise_m"},
+                         missing),
+            cell.arm.emplace());
 }
 
 void ReadFirstPath(const StrictReader& reader, CellConfig& cell) {
   reader.Read("first_view_W", cell.first_view_W);
   reader.Read("first_along_W", cell.first_along_W);
   reader.Read("first_standoff_m", cell.first_standoff_m, kPositive);
+  reader.Read("first_above_table_m", cell.first_above_table_m, kNotNegative);
   constexpr double kShortest = 1e-9;
   if (cell.first_view_W.norm() < kShortest) reader.Fail("first_view_W", "`first_view_W` must not be zero");
   if (cell.first_along_W.norm() < kShortest) reader.Fail("first_along_W", "`first_along_W` must not be zero");
@@ -80,15 +127,15 @@ void ReadFirstPath(const StrictReader& reader, CellConfig& cell) {
 }  // namespace
 
 CellConfig ReadCell(const std::filesystem::path& file, const YamlTree& tree, StrictReader::Missing missing) {
-  static constexpr std::array<std::string_view, 1> kRobots = {"free"};
-  const StrictReader reader(file, tree,
-                            {"name", "robot", "profiler", "X_FS", "sensor_body_S", "body_margin_m",
-                             "move_speed_m_per_s", "turn_speed_rad_per_s", "resolution_m", "unknown_margin_m",
-                             "table_z_m", "first_view_W", "first_along_W", "first_standoff_m"},
-                            missing);
+  const StrictReader reader(
+      file, tree,
+      {"name", "robot", "arm", "profiler", "X_FS", "sensor_body_S", "body_margin_m", "move_speed_m_per_s",
+       "turn_speed_rad_per_s", "resolution_m", "unknown_margin_m", "table_z_m", "table_above_object_m", "table_half_m",
+       "first_view_W", "first_along_W", "first_standoff_m", "first_above_table_m"},
+      missing);
   CellConfig cell;
   reader.Read("name", cell.name);
-  reader.ReadChoice("robot", "robot", kRobots, cell.robot);
+  ReadRobot(file, reader, missing, cell);
   if (const YamlTree* profiler = reader.Find("profiler")) {
     ReadProfiler(
         reader.Inner(*profiler,
@@ -104,7 +151,7 @@ CellConfig ReadCell(const std::filesystem::path& file, const YamlTree& tree, Str
   reader.Read("turn_speed_rad_per_s", cell.turn_speed_rad_per_s, kPositive);
   reader.Read("resolution_m", cell.resolution_m, {.min = 0.0005, .max = 0.5});
   reader.Read("unknown_margin_m", cell.unknown_margin_m, kNotNegative);
-  ReadTable(reader, cell.table_z_m);
+  ReadTable(reader, cell);
   ReadFirstPath(reader, cell);
   return cell;
 }
@@ -131,6 +178,36 @@ std::string FormatPose(const Pose& X) {
   return text + "]}";
 }
 
+namespace {
+
+std::string FormatList(const std::vector<double>& values) {
+  std::string text = "[";
+  for (const double value : values) text += (text.size() > 1 ? ", " : "") + FormatNumber(value);
+  return text + "]";
+}
+
+std::string FormatOptional(const std::optional<double>& value) { return value ? FormatNumber(*value) : "null"; }
+
+std::string FormatArm(const std::optional<ArmConfig>& arm, const std::string& indent) {
+  if (!arm) return indent + "arm: null\n";
+  std::string text = indent + "arm:\n";
+  const auto add = [&](const std::string& key, const std::string& value) {
+    text += indent + "  " + key + ": " + value + "\n";
+  };
+  add("urdf", QuoteYaml(arm->urdf.string()));
+  add("base_link", QuoteYaml(arm->base_link));
+  add("flange_link", QuoteYaml(arm->flange_link));
+  add("inverse_kinematics", arm->inverse_kinematics);
+  add("X_OB", FormatPose(arm->X_OB));
+  add("start_rad", FormatList(arm->start_rad));
+  add("max_rad_per_s2", FormatList(arm->max_rad_per_s2));
+  add("pose_bias_m", FormatNumber(arm->pose_bias_m));
+  add("pose_noise_m", FormatNumber(arm->pose_noise_m));
+  return text;
+}
+
+}  // namespace
+
 std::string FormatCell(const CellConfig& cell, const std::string& indent) {
   std::string text;
   const auto add = [&](const std::string& key, const std::string& value) {
@@ -138,6 +215,7 @@ std::string FormatCell(const CellConfig& cell, const std::string& indent) {
   };
   add("name", QuoteYaml(cell.name));
   add("robot", QuoteYaml(cell.robot));
+  text += FormatArm(cell.arm, indent);
   text += indent + "profiler:\n";
   const Profiler& profiler = cell.profiler;
   add("  points", std::to_string(profiler.points));
@@ -162,10 +240,13 @@ std::string FormatCell(const CellConfig& cell, const std::string& indent) {
   add("turn_speed_rad_per_s", FormatNumber(cell.turn_speed_rad_per_s));
   add("resolution_m", FormatNumber(cell.resolution_m));
   add("unknown_margin_m", FormatNumber(cell.unknown_margin_m));
-  add("table_z_m", cell.table_z_m ? FormatNumber(*cell.table_z_m) : "null");
+  add("table_z_m", FormatOptional(cell.table_z_m));
+  add("table_above_object_m", FormatOptional(cell.table_above_object_m));
+  add("table_half_m", FormatList({cell.table_half_m.x(), cell.table_half_m.y()}));
   add("first_view_W", FormatVector(cell.first_view_W));
   add("first_along_W", FormatVector(cell.first_along_W));
   add("first_standoff_m", FormatNumber(cell.first_standoff_m));
+  add("first_above_table_m", FormatNumber(cell.first_above_table_m));
   return text;
 }
 

@@ -11,6 +11,7 @@ namespace nbs {
 
 /// Reads the keys of a cell from a map: a whole cell file, or the `cell` of a run.yaml.
 ///
+/// @param file     Named in errors; the arm's URDF lies relative to its folder.
 /// @param missing  Whether an absent key keeps CellConfig's default.
 /// @throws ConfigError as ReadCellConfig.
 CellConfig ReadCell(const std::filesystem::path& file, const YamlTree& tree, StrictReader::Missing missing);

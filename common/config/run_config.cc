@@ -73,11 +73,15 @@ std::string FormatRun(const RunConfig& config) {
   add("completeness", FormatNumber(config.completeness));
   add("max_scans", std::to_string(config.max_scans));
   add("rate", config.realtime ? "realtime" : "max");
-  text += "cell:\n" + FormatCell(config.cell, "  ");
+  CellConfig cell = config.cell;
+  // A run folder that holds the arm's URDF may be moved.
+  if (cell.arm) cell.arm->urdf = cell.arm->urdf.lexically_proximate(std::filesystem::absolute(config.folder));
+  text += "cell:\n" + FormatCell(cell, "  ");
   text += "grid:\n";
   add("  origin_m", FormatVector(config.grid.origin_W));
   add("  resolution_m", FormatNumber(config.grid.resolution_m));
   add("  size", FormatSize(config.grid.size));
+  add("object_origin_m", FormatVector(config.p_WO));
   text += "first_path:\n";
   add("  start_X_WS", FormatPose(config.first_path.X_WS_start));
   add("  end_X_WS", FormatPose(config.first_path.X_WS_end));
@@ -92,7 +96,7 @@ RunConfig ReadRunConfig(const std::filesystem::path& folder) {
   const YamlTree tree = ReadYamlTree(file);
   const StrictReader reader(file, tree,
                             {"name", "run_id", "version", "method", "gain", "object", "object_file", "seed",
-                             "completeness", "max_scans", "rate", "cell", "grid", "first_path"},
+                             "completeness", "max_scans", "rate", "cell", "grid", "object_origin_m", "first_path"},
                             StrictReader::Missing::kIsAnError);
   RunConfig config;
   config.folder = folder;
@@ -115,6 +119,7 @@ RunConfig ReadRunConfig(const std::filesystem::path& folder) {
   if (!cell) reader.Fail("cell", "`cell` must not be empty");
   config.cell = ReadCell(file, *cell, StrictReader::Missing::kIsAnError);
   config.grid = ReadGrid(reader, config.cell.resolution_m);
+  reader.Read("object_origin_m", config.p_WO);
   config.first_path = ReadPath(reader);
   return config;
 }

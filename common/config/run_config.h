@@ -18,10 +18,26 @@ struct Sphere {
   double radius_m = 0.0;
 };
 
+/// An arm that carries the sensor. Frame O: origin in the middle of the bottom of the object's bounding box, axes of W.
+struct ArmConfig {
+  std::filesystem::path urdf;  ///< Absolute; a cell states it relative to its own folder, run.yaml to the run folder.
+  std::string base_link = "base_link";
+  std::string flange_link = "tool0";
+  std::string inverse_kinematics = "analytic";  ///< Or "numeric", for arms without a spherical wrist.
+  Pose X_OB = Pose::Identity();                 ///< Base in O. The floor lies at the height of its origin.
+  std::vector<double> start_rad;                ///< Joint values at the start.
+  std::vector<double> max_rad_per_s2;           ///< Acceleration of each joint.
+  // What the arm is off, in simulation: the true flange stands beside the reported one by a bias that changes slowly
+  // over the work space and by noise at every instant.
+  double pose_bias_m = 0.0;   ///< Mean length of the bias; it lies within a third of it.
+  double pose_noise_m = 0.0;  ///< Standard deviation on each axis.
+};
+
 /// Everything that a cell file states (sim/cells/NAME.yaml), with its defaults.
 struct CellConfig {
   std::string name = "free";
-  std::string robot = "free";  ///< "free": a free-flying sensor.
+  std::string robot = "free";    ///< "free": a free-flying sensor; "arm": `arm` carries it.
+  std::optional<ArmConfig> arm;  ///< Present exactly if the robot is an arm.
   Profiler profiler;
   Pose X_FS = Pose::Identity();       ///< Hand-eye transform: sensor in flange.
   std::vector<Sphere> sensor_body_S;  ///< Collision body of the profiler.
@@ -31,11 +47,16 @@ struct CellConfig {
   double resolution_m = 0.005;      ///< Edge of a voxel.
   double unknown_margin_m = 0.05;   ///< The box that is unknown at the start: the object's bounding box grown by this.
   std::optional<double> table_z_m;  ///< Height of the table's top; none: the object hangs free.
+  // For a table that goes with the object: its top is so far above the lowest point of the object (0: the object stands
+  // on it), which sets table_z_m.
+  std::optional<double> table_above_object_m;
+  Eigen::Vector2d table_half_m = {5.0, 5.0};  ///< Half of its sizes along x and y, around the object's middle.
   // The first scan path: the sensor looks along `first_view_W` at the middle of the box, `first_standoff_m` away from
   // the box's face, and moves along `first_along_W` over the box's whole extent in that direction.
   Eigen::Vector3d first_view_W = Eigen::Vector3d::UnitY();
   Eigen::Vector3d first_along_W = Eigen::Vector3d::UnitZ();
   double first_standoff_m = 0.20;
+  double first_above_table_m = 0.0;  ///< The sensor's origin stays so high above the table, if there is one.
 };
 
 /// One run with everything resolved: what run.yaml holds and each service reads.
@@ -53,7 +74,8 @@ struct RunConfig {
   int max_scans = 30;
   bool realtime = false;
   CellConfig cell;
-  GridShape grid;  ///< The voxel space: everything outside is taken as free.
+  GridShape grid;                                  ///< The voxel space: everything outside is taken as free.
+  Eigen::Vector3d p_WO = Eigen::Vector3d::Zero();  ///< Origin of O: the middle of the bottom of the object's box.
   ScanPath first_path;
 };
 
@@ -70,8 +92,13 @@ RunConfig ReadRunConfig(const std::filesystem::path& folder);
 /// Writes FOLDER/run.yaml (atomically: a temporary file, then rename). Reading it back gives an equal configuration.
 void WriteRunConfig(const RunConfig& config);
 
-/// Places the grid (box grown by the margin, lowest corner on a multiple of the resolution) and the first path around
-/// an object's bounding box in W, metres.
+/// Places O, the table, the grid (box grown by the margin, lowest corner on a multiple of the resolution; nothing below
+/// a table that goes with the object) and the first path around an object's bounding box in W, metres.
 void ResolvePlacement(const Eigen::AlignedBox3d& object_box_W, RunConfig& config);
+
+/// The arm's base in W.
+///
+/// @pre The run has an arm.
+Pose CalcBasePose(const RunConfig& config);
 
 }  // namespace nbs

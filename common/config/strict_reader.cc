@@ -146,6 +146,20 @@ void StrictReader::Read(std::string_view key, Eigen::Vector3d& value) const {
   for (int i = 0; i < 3; ++i) value[i] = ParseNumber(key, list->items[i]);
 }
 
+void StrictReader::Read(std::string_view key, Eigen::Vector2d& value) const {
+  const YamlTree* list = FindList(key, 2);
+  if (!list) return;
+  for (int i = 0; i < 2; ++i) value[i] = ParseNumber(key, list->items[i]);
+}
+
+void StrictReader::Read(std::string_view key, std::vector<double>& value) const {
+  const YamlTree* list = FindPresent(key);
+  if (!list) return;
+  if (list->kind != YamlTree::Kind::kList) FailAt(list->line, Name(key) + " must be a list of numbers");
+  value.clear();
+  for (const YamlTree& item : list->items) value.push_back(ParseNumber(key, item));
+}
+
 void StrictReader::Read(std::string_view key, Eigen::Vector3i& value, int min, int max) const {
   const YamlTree* list = FindList(key, 3);
   if (!list) return;

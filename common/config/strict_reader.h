@@ -41,7 +41,10 @@ class StrictReader {
   void Read(std::string_view key, uint64_t& value) const;
   void Read(std::string_view key, std::string& value) const;
   void Read(std::string_view key, Eigen::Vector3d& value) const;
+  void Read(std::string_view key, Eigen::Vector2d& value) const;
   void Read(std::string_view key, Eigen::Vector3i& value, int min, int max) const;
+  /// A list of any length.
+  void Read(std::string_view key, std::vector<double>& value) const;
   /// A map of `position_m` and either `rpy_rad` (turns about the fixed x, y, z axes in this order, as in URDF) or
   /// `rotation` (a matrix by rows, which keeps every bit).
   void Read(std::string_view key, Pose& value) const;

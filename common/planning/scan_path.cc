@@ -10,9 +10,19 @@ std::string_view ToString(CandidateSource source) {
 }
 
 std::string_view ToString(Verdict verdict) {
-  constexpr std::array<std::string_view, kVerdicts> kNames = {
-      "chosen",    "reachable",        "partly",  "blocked_by_obstacle", "blocked_by_unknown",
-      "no_motion", "out_of_workspace", "no_gain", "not_tried",           "dropped"};
+  constexpr std::array<std::string_view, kVerdicts> kNames = {"chosen",
+                                                              "reachable",
+                                                              "partly",
+                                                              "blocked_by_obstacle",
+                                                              "blocked_by_unknown",
+                                                              "no_motion",
+                                                              "no_inverse_kinematics",
+                                                              "no_gain",
+                                                              "not_tried",
+                                                              "dropped",
+                                                              "joint_limit",
+                                                              "speed",
+                                                              "self_collision"};
   return kNames.at(static_cast<size_t>(verdict));
 }
 

@@ -22,18 +22,21 @@ enum class CandidateSource : uint8_t { kFirst = 0, kBoundary = 1, kHole = 2, kSp
 
 /// What became of a candidate (section III-E of the paper).
 enum class Verdict : uint8_t {
-  kChosen = 0,             ///< The next best scan.
-  kReachable = 1,          ///< Could be scanned; another was better. Stays on the stack.
-  kPartly = 2,             ///< Only part of its path can be reached; that part is the candidate.
-  kBlockedByObstacle = 3,  ///< Touches something occupied: discarded.
-  kBlockedByUnknown = 4,   ///< Touches unknown space: kept for a later round.
-  kNoMotion = 5,           ///< The path itself is free, but no collision-free motion to it was found: kept.
-  kOutOfWorkspace = 6,     ///< Outside the joint or work-space limits: discarded.
-  kNoGain = 7,             ///< Information gain below the threshold: discarded.
-  kNotTried = 8,           ///< Ranked below the chosen one, reachability not looked at. Stays on the stack.
-  kDropped = 9,            ///< Boundary candidate dropped at the switch to holes.
+  kChosen = 0,               ///< The next best scan.
+  kReachable = 1,            ///< Could be scanned; another was better. Stays on the stack.
+  kPartly = 2,               ///< Only part of its path can be reached; that part is the candidate.
+  kBlockedByObstacle = 3,    ///< Touches something occupied: discarded.
+  kBlockedByUnknown = 4,     ///< Touches unknown space: kept for a later round.
+  kNoMotion = 5,             ///< The path itself is free, but no collision-free motion to it was found: kept.
+  kNoInverseKinematics = 6,  ///< Out of the arm's reach, whatever its joints' limits: discarded.
+  kNoGain = 7,               ///< Information gain below the threshold: discarded.
+  kNotTried = 8,             ///< Ranked below the chosen one, reachability not looked at. Stays on the stack.
+  kDropped = 9,              ///< Boundary candidate dropped at the switch to holes.
+  kJointLimit = 10,          ///< The arm would get there only beyond the limits of its joints: discarded.
+  kSpeed = 11,               ///< A joint would have to jump, or to turn faster than it can: discarded.
+  kSelfCollision = 12,       ///< The arm would touch itself, the table or the floor: discarded.
 };
-inline constexpr int kVerdicts = 10;
+inline constexpr int kVerdicts = 13;
 
 /// Names as in report.json and on the bus: first, boundary, hole, sphere; chosen, reachable, partly,
 /// blocked_by_obstacle, …

@@ -35,8 +35,14 @@ const char* Explain(Verdict verdict) {
       return "the sensor would enter unknown space; kept for a later round";
     case Verdict::kNoMotion:
       return "the path is free, but no collision-free motion to it was found; kept";
-    case Verdict::kOutOfWorkspace:
-      return "outside the limits of the robot; discarded";
+    case Verdict::kNoInverseKinematics:
+      return "out of the arm's reach; discarded";
+    case Verdict::kJointLimit:
+      return "only beyond the limits of the arm's joints; discarded";
+    case Verdict::kSpeed:
+      return "a joint would have to jump, or turn faster than it can; discarded";
+    case Verdict::kSelfCollision:
+      return "the arm would touch itself, the table or the floor; discarded";
     case Verdict::kNoGain:
       return "its information gain is below the threshold; discarded";
     case Verdict::kNotTried:

@@ -79,6 +79,26 @@ TEST(CellConfig, UnknownRobotIsRefused) {
   EXPECT_EQ(ErrorOf("robot: fre\n"), "cell.yaml:1: unknown robot `fre`: did you mean `free`?");
 }
 
+TEST(CellConfig, ShippedArmCellNamesItsUrdfBesideItself) {
+  const CellConfig cell = ReadCellConfig(std::filesystem::path(NBS_SOURCE_DIR) / "sim/cells/kr16.yaml");
+  ASSERT_TRUE(cell.arm);
+  EXPECT_TRUE(std::filesystem::exists(cell.arm->urdf));
+  EXPECT_EQ(cell.arm->start_rad.size(), 6u);
+  EXPECT_EQ(cell.profiler.camera_baseline_m, 0.12);
+}
+
+TEST(CellConfig, ArmWithoutItsSectionIsRefused) {
+  EXPECT_EQ(ErrorOf("robot: arm\n"), "cell.yaml:1: the robot is an arm, but `arm` is missing");
+  EXPECT_EQ(ErrorOf("arm: {urdf: a.urdf}\n"), "cell.yaml:1: `arm` needs `robot: arm`");
+}
+
+TEST(CellConfig, ArmWithoutJointValuesIsRefused) {
+  EXPECT_EQ(ErrorOf("robot: arm\narm: {urdf: a.urdf, start_rad: [0, 1], max_rad_per_s2: [1]}\n"),
+            "cell.yaml:2: `start_rad` and `max_rad_per_s2` must have a number for each joint");
+  EXPECT_EQ(ErrorOf("robot: arm\narm: {start_rad: [0], max_rad_per_s2: [1]}\n"),
+            "cell.yaml:2: an arm needs `urdf`, the name of its URDF file");
+}
+
 TEST(CellConfig, FirstPathAlongTheViewIsRefused) {
   EXPECT_THAT(ErrorOf("first_view_W: [0, 0, 1]\nfirst_along_W: [0, 0, 2]\n"),
               testing::StartsWith("cell.yaml:2: `first_along_W` must not be parallel to `first_"));

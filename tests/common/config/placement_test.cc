@@ -56,6 +56,28 @@ TEST(Placement, FirstPathRunsOverTheWholeExtent) {
   EXPECT_NEAR(config.first_path.length_m(), config.grid.resolution_m * config.grid.size.z(), 1e-12);
 }
 
+TEST(Placement, TableGoesWithTheObjectAndNothingBelowItIsUnknown) {
+  CellConfig cell;
+  cell.table_above_object_m = -0.01;
+  cell.first_along_W = {0, 0, 1};
+  cell.first_above_table_m = 0.1;
+  const RunConfig config = Resolve(cell);
+  EXPECT_NEAR(*config.cell.table_z_m, kBox_W.min().z() - 0.01, 1e-12);
+  EXPECT_LE(config.grid.origin_W.z(), *config.cell.table_z_m);
+  EXPECT_GT(config.grid.origin_W.z(), *config.cell.table_z_m - 0.005);
+  EXPECT_NEAR(config.first_path.X_WS_start.translation().z(), *config.cell.table_z_m + 0.1, 1e-12);
+  EXPECT_GT(config.first_path.X_WS_end.translation().z(), kBox_W.max().z());
+}
+
+TEST(Placement, BaseStandsRelativeToTheMiddleOfTheObjectsBottom) {
+  CellConfig cell;
+  cell.arm.emplace().X_OB.translation() = Eigen::Vector3d(-1.0, 0.1, -0.3);
+  const RunConfig config = Resolve(cell);
+  const Eigen::Vector3d expected =
+      Eigen::Vector3d(kBox_W.center().x(), kBox_W.center().y(), kBox_W.min().z()) + cell.arm->X_OB.translation();
+  EXPECT_LT((CalcBasePose(config).translation() - expected).norm(), 1e-12);
+}
+
 TEST(Placement, ScanDirectionIsTheSensorsYAxis) {
   CellConfig cell;
   cell.first_view_W = {-3, 0, -1};

@@ -30,6 +30,7 @@ RunConfig MakeConfig(const std::filesystem::path& folder) {
   config.cell.sensor_body_S = {{{0.1, 1.0 / 3.0, -1e-17}, 2.0 / 3.0}, {{0, 0, 0}, 1e-9}};
   config.cell.table_z_m = -1.0 / 9.0;
   config.cell.first_view_W = {1.0 / 3.0, 1, 0};
+  config.cell.table_half_m = {1.0 / 3.0, 0.7};
   config.cell.resolution_m = 0.003;
   ResolvePlacement({Eigen::Vector3d(-1.0 / 3.0, -0.2, 0), Eigen::Vector3d(0.1, 0.7 / 9.0, 0.5)}, config);
   return config;
@@ -51,6 +52,29 @@ std::string ErrorWith(const std::string& from, const std::string& to) {
   text.replace(at, from.size(), to);
   std::ofstream(folder / "run.yaml") << text;
   return CatchConfigError([&] { ReadRunConfig(folder); });
+}
+
+TEST(RunConfig, ArmReadsBackBitForBitAndItsUrdfMovesWithTheFolder) {
+  const auto folder = MakeTestFolder();
+  RunConfig written = MakeConfig(folder);
+  written.cell.robot = "arm";
+  ArmConfig& arm = written.cell.arm.emplace();
+  arm = {folder / "robot.urdf", "base",           "tool",    "numeric", MakeCrookedPose(0.4),
+         {1.0 / 3.0, -2},       {0.1, 7.0 / 9.0}, 1.0 / 7.0, 1e-9};
+  WriteRunConfig(written);
+  const auto moved = folder / "moved";
+  std::filesystem::create_directory(moved);
+  std::filesystem::copy_file(folder / "run.yaml", moved / "run.yaml");
+  const ArmConfig read = ReadRunConfig(moved).cell.arm.value();
+  EXPECT_EQ(read.urdf, moved / "robot.urdf");
+  EXPECT_EQ(read.base_link, "base");
+  EXPECT_EQ(read.flange_link, "tool");
+  EXPECT_EQ(read.inverse_kinematics, "numeric");
+  EXPECT_EQ(read.X_OB.matrix(), arm.X_OB.matrix());
+  EXPECT_EQ(read.start_rad, arm.start_rad);
+  EXPECT_EQ(read.max_rad_per_s2, arm.max_rad_per_s2);
+  EXPECT_EQ(read.pose_bias_m, arm.pose_bias_m);
+  EXPECT_EQ(read.pose_noise_m, arm.pose_noise_m);
 }
 
 TEST(RunConfig, ReadsBackWhatWasWrittenBitForBit) {
@@ -149,7 +173,7 @@ TEST(RunConfig, CompletenessAboveOneIsRefused) {
 
 TEST(RunConfig, GridOfAnotherResolutionIsRefused) {
   EXPECT_EQ(ErrorWith("resolution_m: 0.003\n  size", "resolution_m: 0.004\n  size"),
-            "run.yaml:43: `resolution_m` of the grid (0.004) must be that of the cell (0.003)");
+            "run.yaml:47: `resolution_m` of the grid (0.004) must be that of the cell (0.003)");
 }
 
 }  // namespace
