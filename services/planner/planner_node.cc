@@ -52,7 +52,9 @@ PlannerNode::PlannerNode(const RunConfig& config, Clock clock, const PlannerSett
       motion_(config),
       prediction_(config.grid),
       searcher_(config, settings.threads),
-      X_WS_now_(config.first_path.X_WS_start) {}
+      now_(motion_.MakeStartPosture(config.first_path)) {
+  motion_.CheckStart(MapClearance(voxels_), config.first_path);
+}
 
 void PlannerNode::Handle(const Message& message, Outbox& out) {
   if (const auto* request = std::get_if<PlanRequest>(&message)) {
@@ -84,7 +86,8 @@ void PlannerNode::Answer(const PlanRequest& request, Outbox& out) {
   if (result.found) {
     newest_scan_ = request.scan;
     newest_path_ = result.chosen.candidate.path;
-    X_WS_now_ = result.trajectory.points.back().X_WF * config_.cell.X_FS;
+    const TrajectoryPoint& last = result.trajectory.points.back();
+    now_ = {last.X_WF * config_.cell.X_FS, last.joints_rad};
     plan.chosen = result.chosen;
     plan.trajectory = std::move(result.trajectory);
     plan.trajectory.utime_us = request.utime_us;
@@ -146,7 +149,7 @@ SelectionTools PlannerNode::MakeTools(const PlanRequest& request, const Clearanc
   tools.plan_motion = [this, &request, &clearance, &timing](const ScanPath& path) {
     Stopwatch watch(clock_, timing.motion_s);
     const uint64_t seed = CalcRandomBits({config_.seed, static_cast<uint64_t>(request.scan)});
-    MotionPlanner::Result motion = motion_.Plan(clearance, X_WS_now_, path, seed);
+    MotionPlanner::Result motion = motion_.Plan(clearance, now_, path, seed);
     // The path was checked before: a part of it now would be a path without a rating.
     const Verdict verdict = motion.verdict == Verdict::kPartly ? Verdict::kNoMotion : motion.verdict;
     return SelectionTools::Motion{verdict, motion.path, std::move(motion.trajectory)};

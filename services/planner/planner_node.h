@@ -32,6 +32,7 @@ class PlannerNode : public Node {
   /// Wall clock in seconds for the timing messages; it reaches nothing else.
   using Clock = std::function<double()>;
 
+  /// @throws ConfigError if an arm cannot be planned for, starts in collision, or cannot drive the first path.
   PlannerNode(const RunConfig& config, Clock clock, const PlannerSettings& settings = {});
 
   size_t NextInput() const override { return next_input_; }
@@ -60,7 +61,7 @@ class PlannerNode : public Node {
   int32_t newest_scan_ = -1;     ///< Last scan planned.
   int32_t predicted_scan_ = -1;  ///< Last scan in the prediction.
   ScanPath newest_path_;
-  Pose X_WS_now_;  ///< Where the sensor stands after the last plan.
+  RobotPosture now_;  ///< Where the robot is after the last plan.
 };
 
 }  // namespace nbs

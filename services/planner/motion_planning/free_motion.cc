@@ -44,10 +44,10 @@ PathCheck FreeMotion::CheckPath(const Clearance& clearance, const ScanPath& path
   return table_z_m_ ? check(AboveTable(clearance, *table_z_m_)) : check(clearance);
 }
 
-MotionResult FreeMotion::Plan(const Clearance& clearance, const Pose& X_WS_now, const ScanPath& path,
+MotionResult FreeMotion::Plan(const Clearance& clearance, const RobotPosture& now, const ScanPath& path,
                               uint64_t seed) const {
-  if (table_z_m_) return PlanAbove(AboveTable(clearance, *table_z_m_), X_WS_now, path, seed);
-  return PlanAbove(clearance, X_WS_now, path, seed);
+  if (table_z_m_) return PlanAbove(AboveTable(clearance, *table_z_m_), now.X_WS, path, seed);
+  return PlanAbove(clearance, now.X_WS, path, seed);
 }
 
 MotionResult FreeMotion::PlanAbove(const Clearance& clearance, const Pose& X_WS_now, const ScanPath& path,

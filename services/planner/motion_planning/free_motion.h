@@ -20,7 +20,7 @@ class FreeMotion final : public MotionBackend {
   FreeMotion(const RunConfig& config, const MotionSettings& settings);
 
   PathCheck CheckPath(const Clearance& clearance, const ScanPath& path) const override;
-  MotionResult Plan(const Clearance& clearance, const Pose& X_WS_now, const ScanPath& path,
+  MotionResult Plan(const Clearance& clearance, const RobotPosture& now, const ScanPath& path,
                     uint64_t seed) const override;
 
  private:

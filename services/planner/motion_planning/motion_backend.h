@@ -1,16 +1,27 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "common/planning/scan_path.h"
 #include "services/planner/motion_planning/clearance.h"
 
 namespace nbs {
 
+/// Where the robot is.
+struct RobotPosture {
+  RobotPosture(const Pose& X_WS_now, std::vector<double> joints = {}) : X_WS(X_WS_now), joints_rad(std::move(joints)) {}
+
+  Pose X_WS = Pose::Identity();
+  std::vector<double> joints_rad;  ///< Empty for a free-flying sensor.
+};
+
 /// Whether a scan path can be driven, whatever the way to it.
 struct PathCheck {
-  Verdict verdict =
-      Verdict::kReachable;  ///< kReachable, kPartly, kBlockedByObstacle, kBlockedByUnknown or kOutOfWorkspace.
+  Verdict verdict = Verdict::kReachable;  ///< kReachable, kPartly, kBlockedByObstacle, kBlockedByUnknown; of an arm
+                                          ///< also what its joints do not allow.
   ScanPath path;  ///< What can be driven: the path as given, rolled, or the longest part of it. As given when blocked.
 };
 
@@ -29,8 +40,14 @@ class MotionBackend {
  public:
   virtual ~MotionBackend() = default;
   virtual PathCheck CheckPath(const Clearance& clearance, const ScanPath& path) const = 0;
-  virtual MotionResult Plan(const Clearance& clearance, const Pose& X_WS_now, const ScanPath& path,
+  virtual MotionResult Plan(const Clearance& clearance, const RobotPosture& now, const ScanPath& path,
                             uint64_t seed) const = 0;
+  /// Where the robot is before its first motion.
+  virtual RobotPosture MakeStartPosture(const ScanPath& first_path) const { return {first_path.X_WS_start, {}}; }
+  /// Why a run cannot begin, in words; empty if it can.
+  virtual std::string FindStartFault(const Clearance& /*clearance*/, const ScanPath& /*first_path*/) const {
+    return {};
+  }
 };
 
 }  // namespace nbs

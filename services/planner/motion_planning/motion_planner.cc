@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/runtime/error.h"
+#include "services/planner/motion_planning/arm_motion.h"
 #include "services/planner/motion_planning/free_motion.h"
 
 namespace nbs {
@@ -10,6 +12,7 @@ namespace {
 
 std::unique_ptr<const MotionBackend> MakeBackend(const RunConfig& config, const MotionSettings& settings) {
   if (config.cell.robot == "free") return std::make_unique<FreeMotion>(config, settings);
+  if (config.cell.robot == "arm") return std::make_unique<ArmMotion>(config, settings);
   throw std::invalid_argument("MotionPlanner: no motion planning for the robot `" + config.cell.robot + "`");
 }
 
@@ -20,7 +23,7 @@ void CheckRigid(const Pose& X) {
 }  // namespace
 
 MotionPlanner::MotionPlanner(const RunConfig& config, const MotionSettings& settings)
-    : backend_(MakeBackend(config, settings)) {}
+    : cell_(config.cell.name), backend_(MakeBackend(config, settings)) {}
 MotionPlanner::~MotionPlanner() = default;
 MotionPlanner::MotionPlanner(MotionPlanner&&) noexcept = default;
 MotionPlanner& MotionPlanner::operator=(MotionPlanner&&) noexcept = default;
@@ -31,12 +34,21 @@ PathCheck MotionPlanner::CheckPath(const Clearance& clearance, const ScanPath& p
   return backend_->CheckPath(clearance, path);
 }
 
-MotionPlanner::Result MotionPlanner::Plan(const Clearance& clearance, const Pose& X_WS_now, const ScanPath& path,
+RobotPosture MotionPlanner::MakeStartPosture(const ScanPath& first_path) const {
+  return backend_->MakeStartPosture(first_path);
+}
+
+void MotionPlanner::CheckStart(const Clearance& clearance, const ScanPath& first_path) const {
+  const std::string fault = backend_->FindStartFault(clearance, first_path);
+  if (!fault.empty()) throw ConfigError("In the cell " + cell_ + ", " + fault + ".");
+}
+
+MotionPlanner::Result MotionPlanner::Plan(const Clearance& clearance, const RobotPosture& now, const ScanPath& path,
                                           uint64_t seed) const {
-  CheckRigid(X_WS_now);
+  CheckRigid(now.X_WS);
   CheckRigid(path.X_WS_start);
   CheckRigid(path.X_WS_end);
-  return backend_->Plan(clearance, X_WS_now, path, seed);
+  return backend_->Plan(clearance, now, path, seed);
 }
 
 }  // namespace nbs

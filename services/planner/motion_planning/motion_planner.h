@@ -25,6 +25,7 @@ class MotionPlanner {
   /// Chooses the backend after config.cell.robot.
   ///
   /// @throws std::invalid_argument if the robot has no backend, or the cell's speeds or body are out of range.
+  /// @throws ConfigError if the URDF of an arm cannot be used, or does not fit the cell.
   explicit MotionPlanner(const RunConfig& config, const MotionSettings& settings = {});
   ~MotionPlanner();
   MotionPlanner(MotionPlanner&&) noexcept;
@@ -35,17 +36,27 @@ class MotionPlanner {
   /// @throws std::invalid_argument if a pose is not rigid.
   [[nodiscard]] PathCheck CheckPath(const Clearance& clearance, const ScanPath& path) const;
 
-  /// Plans from the current pose to the scan path and along it.
+  /// Where the robot is before its first motion: the cell's joint values, or at the start of the first path.
+  RobotPosture MakeStartPosture(const ScanPath& first_path) const;
+
+  /// Checks that a run can begin: the robot is free where it starts and can drive the first scan path.
+  ///
+  /// @param clearance  Of the voxel space at the start.
+  /// @throws ConfigError otherwise, in one sentence.
+  void CheckStart(const Clearance& clearance, const ScanPath& first_path) const;
+
+  /// Plans from where the robot is to the scan path and along it.
   ///
   /// The path may be driven from either end, and with the sensor rolled by half a turn, which scans the same;
   /// Result::path says how.
   ///
   /// @param seed  Of the search, where one is needed.
   /// @throws std::invalid_argument if a pose is not rigid.
-  [[nodiscard]] Result Plan(const Clearance& clearance, const Pose& X_WS_now, const ScanPath& path,
+  [[nodiscard]] Result Plan(const Clearance& clearance, const RobotPosture& now, const ScanPath& path,
                             uint64_t seed) const;
 
  private:
+  std::string cell_;
   std::unique_ptr<const MotionBackend> backend_;
 };
 

@@ -40,8 +40,8 @@ TEST(MapClearance, NeitherDistanceExceedsTheTrueOne) {
   const MapClearance clearance(grid);
   for (uint64_t k = 0; k < 40; ++k) {
     const Eigen::Vector3d p_W = MakeRandomPose(11, k, 0.4).translation();
-    EXPECT_LE(clearance.CalcObstacleDistance(p_W), CalcTrueDistance(grid, p_W, false, 0.3) + 1e-9);
-    EXPECT_LE(clearance.CalcUnknownDistance(p_W), CalcTrueDistance(grid, p_W, true, 0.3) + 1e-9);
+    EXPECT_LE(clearance.CalcObstacleDistance(p_W), CalcTrueDistance(grid, p_W, false, 1.0) + 1e-9);
+    EXPECT_LE(clearance.CalcUnknownDistance(p_W), CalcTrueDistance(grid, p_W, true, 1.0) + 1e-9);
     EXPECT_LE(clearance.CalcUnknownDistance(p_W), clearance.CalcObstacleDistance(p_W) + 1e-9);
   }
 }

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+
+#include "common/config/run_config.h"
+#include "common/kinematics/arm_body.h"
+#include "services/planner/motion_planning/clearance.h"
+
+namespace nbs {
+
+/// What an arm touches. Itself, table and floor go before occupied, occupied before unknown: the first never changes.
+enum class ArmTouch : uint8_t { kFree = 0, kUnknown = 1, kOccupied = 2, kSelf = 3 };
+
+/// Collision of an arm and the sensor on its flange with the voxel space, the table, the floor and itself.
+///
+/// Every part but the base keeps the margin to the floor, which lies at the height of the base frame's origin; the base
+/// stands on it. The sensor stays above the plane of the table also beside it: from below nothing can be seen. Parts of
+/// the arm keep 5 mm from each other.
+class ArmCollision {
+ public:
+  /// @pre The run has an arm, and `model` is its model.
+  ArmCollision(const RunConfig& config, const ArmModel& model);
+
+  const ArmModel& model() const { return model_; }
+  const ArmBody& body() const { return body_; }
+  const Pose& X_WB() const { return X_WB_; }
+  double margin_m() const { return margin_m_; }
+
+  /// What the arm comes nearer to than its margins.
+  ArmTouch FindTouch(const Clearance& clearance, const Joints& q) const;
+
+  /// Smallest distance of the arm from the voxel space's occupied and unknown cells, the table and the floor, the
+  /// margin taken off, metres; negative: too near.
+  double CalcSlack(const Clearance& clearance, const Joints& q) const;
+
+  /// True if the arm is free all along the straight line in joint space from one to the other.
+  ///
+  /// Conservative advancement (as swept_check.h): from a free state no part reaches anything before it has moved as far
+  /// as its distance. The shortest step moves no point by more than kArmSweepTolerance, so between two states found
+  /// free every part keeps its margin less half of that.
+  ///
+  /// @param squeeze_m  Taken off the margin to the surroundings, >= 0: for an arm that stands nearer than it should.
+  bool IsFreeMotion(const Clearance& clearance, const Joints& q_from, const Joints& q_to, double squeeze_m = 0.0) const;
+
+ private:
+  double CalcPartSlack(const Clearance& clearance, size_t part, const LinkPoses& X_BL) const;
+  double CalcFixedDistance(size_t part, const Eigen::Vector3d& p_W) const;
+  double CalcFreeStep(const Clearance& clearance, const Joints& q, const Joints& way, double squeeze_m) const;
+
+  ArmModel model_;
+  ArmBody body_;
+  Pose X_WB_;
+  double margin_m_;
+  std::optional<double> table_z_m_;
+  Eigen::AlignedBox2d table_W_;
+};
+
+/// Metres.
+inline constexpr double kArmSweepTolerance = 0.005;
+/// Between parts of the arm, metres; its bodies are expected to stand off its links by more than half a step.
+inline constexpr double kSelfMargin = 0.0;
+
+}  // namespace nbs

@@ -1,0 +1,97 @@
+#include "services/planner/motion_planning/arm_timing.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/common/kinematics/arms.h"
+
+namespace nbs {
+namespace {
+
+ArmTimingLimits MakeLimitsOf(const ArmModel& model) {
+  ArmTimingLimits limits;
+  for (const ArmJoint& joint : model.joints) limits.rad_per_s.push_back(joint.max_rad_per_s);
+  limits.rad_per_s2 = {5, 5, 5, 10, 10, 15};
+  limits.flange = {0.5, 1.5, 0.05, 40000};
+  return limits;
+}
+
+class ArmTiming : public testing::Test {
+ protected:
+  Trajectory Make(std::vector<Joints> approach, double length_m = 0.2) const {
+    std::vector<Joints> scan = {approach.back()};
+    for (int k = 1; k <= 20; ++k) scan.push_back(approach.back() + Joints::Constant(6, 0.005 * k));
+    return MakeArmTrajectory(model_, Pose::Identity(), limits_, approach, scan, length_m);
+  }
+
+  ArmModel model_ = ReadKr16();
+  ArmTimingLimits limits_ = MakeLimitsOf(model_);
+  std::vector<Joints> approach_ = {MakeRandomJoints(model_, 1, 0), MakeRandomJoints(model_, 1, 1),
+                                   MakeRandomJoints(model_, 1, 2)};
+};
+
+TEST_F(ArmTiming, KeepsSpeedsAndAccelerationsOfAllJoints) {
+  const std::vector<TrajectoryPoint> points = Make(approach_).points;
+  Joints speed_before = Joints::Zero(6);
+  double duration_before = 0.0;
+  double fastest = 0.0;
+  for (size_t i = 1; i < points.size(); ++i) {
+    const double duration_s = 1e-6 * static_cast<double>(points[i].time_us - points[i - 1].time_us);
+    ASSERT_GT(duration_s, 0.0);
+    for (int k = 0; k < 6; ++k) {
+      const double speed = (points[i].joints_rad[k] - points[i - 1].joints_rad[k]) / duration_s;
+      EXPECT_LE(std::abs(speed), limits_.rad_per_s[k] * 1.001);
+      if (!points[i - 1].scanning) {
+        EXPECT_LE(std::abs(speed - speed_before[k]) / (0.5 * (duration_s + duration_before)),
+                  limits_.rad_per_s2[k] * 1.01)
+            << i;
+      }
+      speed_before[k] = speed;
+      fastest = std::max(fastest, std::abs(speed) / limits_.rad_per_s[k]);
+    }
+    duration_before = duration_s;
+    EXPECT_LE((points[i].X_WF.translation() - points[i - 1].X_WF.translation()).norm() / duration_s, 0.5 * 1.01);
+  }
+  EXPECT_GT(fastest, 0.1);
+}
+
+TEST_F(ArmTiming, PosesBelongToTheirJoints) {
+  for (const TrajectoryPoint& point : Make(approach_).points) {
+    const Joints q = Eigen::Map<const Eigen::VectorXd>(point.joints_rad.data(), 6);
+    EXPECT_EQ(point.X_WF.matrix(), CalcFlangePose(model_, q).matrix());
+  }
+}
+
+TEST_F(ArmTiming, ScanBeginsOnTheProfileClockAndTakesItsTime) {
+  const std::vector<TrajectoryPoint> points = Make(approach_).points;
+  const auto first = std::find_if(points.begin(), points.end(), [](const TrajectoryPoint& p) { return p.scanning; });
+  ASSERT_NE(first, points.end());
+  EXPECT_EQ(first->time_us % 40000, 0);
+  // 0.2 m at 50 mm/s, and a ramp of 0.2 s at either end that costs half of itself.
+  EXPECT_NEAR(1e-6 * static_cast<double>(points.back().time_us - first->time_us), 4.0 + 0.2, 0.01);
+  EXPECT_FALSE(points.back().scanning);
+  EXPECT_TRUE((points.end() - 2)->scanning);
+}
+
+TEST_F(ArmTiming, RestsAtEveryCornerOfTheApproach) {
+  const std::vector<TrajectoryPoint> points = Make(approach_).points;
+  const auto corner = std::find_if(points.begin(), points.end(), [&](const TrajectoryPoint& p) {
+    return (Eigen::Map<const Eigen::VectorXd>(p.joints_rad.data(), 6) - approach_[1]).norm() == 0.0;
+  });
+  ASSERT_NE(corner, points.end());
+  EXPECT_EQ(points.front().joints_rad, std::vector<double>(approach_[0].begin(), approach_[0].end()));
+}
+
+TEST_F(ArmTiming, PathWithoutLengthLastsOnePeriod) {
+  const std::vector<TrajectoryPoint> points = Make({approach_.back()}, 0.0).points;
+  EXPECT_EQ(points.back().time_us, 40000);
+}
+
+TEST_F(ArmTiming, TimeOfALineIsThatOfItsTrajectory) {
+  const std::vector<TrajectoryPoint> points = Make({approach_[0], approach_[1]}).points;
+  const auto first = std::find_if(points.begin(), points.end(), [](const TrajectoryPoint& p) { return p.scanning; });
+  EXPECT_NEAR(1e-6 * static_cast<double>(first->time_us), CalcJointTime(model_, limits_, approach_[0], approach_[1]),
+              0.041);
+}
+
+}  // namespace
+}  // namespace nbs
