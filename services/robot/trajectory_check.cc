@@ -9,11 +9,30 @@ namespace {
 
 constexpr int64_t kLongestMotion_us = 24ll * 3600 * 1'000'000;
 
+std::string FindStartFault(const TrajectoryPoint& first, const Pose& X_WF, const RobotLimits& limits) {
+  const double distance_m = (first.X_WF.translation() - X_WF.translation()).norm();
+  const double angle_rad = CalcAngleBetween(first.X_WF, X_WF);
+  if (distance_m <= limits.start_tolerance_m && angle_rad <= limits.start_tolerance_rad) return {};
+  return fmt::format("The trajectory starts {:.3f} m and {:.4f} rad away from where the robot is.", distance_m,
+                     angle_rad);
+}
+
+double CalcDistance(const Pose& X_WA, const Pose& X_WB) { return (X_WA.translation() - X_WB.translation()).norm(); }
+
+std::string FindJoints(const Trajectory& trajectory) {
+  for (size_t i = 0; i < trajectory.points.size(); ++i) {
+    if (!trajectory.points[i].joints_rad.empty())
+      return fmt::format("Point {} has joints, but a free-flying sensor has none.", i);
+  }
+  return {};
+}
+
+}  // namespace
+
 std::string FindFormFault(const Trajectory& trajectory) {
   const auto& points = trajectory.points;
   if (points.empty()) return "The trajectory has no points.";
   for (size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].joints_rad.empty()) return fmt::format("Point {} has joints, but a free-flying sensor has none.", i);
     if (points[i].time_us < 0) return fmt::format("The time of point {}, {} us, is negative.", i, points[i].time_us);
     if (i > 0 && points[i].time_us <= points[i - 1].time_us) {
       return fmt::format("The time of point {}, {} us, is not later than that of the point before, {} us.", i,
@@ -24,16 +43,6 @@ std::string FindFormFault(const Trajectory& trajectory) {
   }
   return {};
 }
-
-std::string FindStartFault(const TrajectoryPoint& first, const Pose& X_WF, const RobotLimits& limits) {
-  const double distance_m = (first.X_WF.translation() - X_WF.translation()).norm();
-  const double angle_rad = CalcAngleBetween(first.X_WF, X_WF);
-  if (distance_m <= limits.start_tolerance_m && angle_rad <= limits.start_tolerance_rad) return {};
-  return fmt::format("The trajectory starts {:.3f} m and {:.4f} rad away from where the robot is.", distance_m,
-                     angle_rad);
-}
-
-double CalcDistance(const Pose& X_WA, const Pose& X_WB) { return (X_WA.translation() - X_WB.translation()).norm(); }
 
 std::string FindSpeedFault(const Trajectory& trajectory, const RobotLimits& limits) {
   const auto& points = trajectory.points;
@@ -59,8 +68,6 @@ std::string FindSpeedFault(const Trajectory& trajectory, const RobotLimits& limi
   return {};
 }
 
-}  // namespace
-
 RobotLimits MakeRobotLimits(const CellConfig& cell) {
   RobotLimits limits;
   limits.move_speed_m_per_s = cell.move_speed_m_per_s;
@@ -72,6 +79,7 @@ RobotLimits MakeRobotLimits(const CellConfig& cell) {
 
 std::string FindRefusal(const Trajectory& trajectory, const Pose& X_WF, const RobotLimits& limits) {
   std::string fault = FindFormFault(trajectory);
+  if (fault.empty()) fault = FindJoints(trajectory);
   if (fault.empty()) fault = FindStartFault(trajectory.points.front(), X_WF, limits);
   if (fault.empty()) fault = FindSpeedFault(trajectory, limits);
   return fault;

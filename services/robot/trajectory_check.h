@@ -20,9 +20,18 @@ struct RobotLimits {
 
 RobotLimits MakeRobotLimits(const CellConfig& cell);
 
+/// Why nothing can execute the trajectory: no points, times that do not rise or pass a day, poses that are not rigid;
+/// empty if they are sound.
+std::string FindFormFault(const Trajectory& trajectory);
+
+/// Where flange or scanning sensor are too fast; empty if nowhere.
+///
+/// @pre FindFormFault finds nothing.
+std::string FindSpeedFault(const Trajectory& trajectory, const RobotLimits& limits);
+
 /// Why a free-flying sensor that rests at X_WF cannot execute the trajectory, in one sentence; empty if it can.
 ///
-/// Looked for, in this order: no points; joints; times that do not rise or pass a day; poses that are not rigid; a
+/// Looked for, in this order: no points; times that do not rise or pass a day; poses that are not rigid; joints; a
 /// start away from X_WF; segments that are too fast. Times are whole microseconds, so a segment counts as up to one
 /// microsecond longer than it says.
 std::string FindRefusal(const Trajectory& trajectory, const Pose& X_WF, const RobotLimits& limits);

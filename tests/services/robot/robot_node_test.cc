@@ -88,9 +88,10 @@ TEST(RobotNode, EqualTrajectoriesGiveEqualStates) {
   for (size_t i = 0; i < a.states.size(); ++i) EXPECT_EQ(a.states[i].X_WF.matrix(), b.states[i].X_WF.matrix());
 }
 
-TEST(RobotNode, ACellWithAnotherRobotIsAConfigurationError) {
+TEST(RobotNode, AnArmWithoutItsUrdfIsAConfigurationError) {
   RunConfig config;
-  config.cell.robot = "kr16";
+  config.cell.robot = "arm";
+  config.cell.arm.emplace().urdf = "/nowhere/arm.urdf";
   EXPECT_THROW(RobotNode{config}, ConfigError);
 }
 
