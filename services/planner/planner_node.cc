@@ -139,7 +139,7 @@ SelectionTools PlannerNode::MakeTools(const PlanRequest& request, const Clearanc
     return rating.CalcGain(path);
   };
   tools.calc_score = [this, &rating](const Candidate& candidate, double gain_nat) {
-    return rating.CalcScore(candidate, gain_nat, X_WS_now_);
+    return rating.CalcScore(candidate, gain_nat, now_.X_WS);
   };
   tools.check_path = [this, &clearance, &timing](const ScanPath& path) {
     Stopwatch watch(clock_, timing.motion_s);

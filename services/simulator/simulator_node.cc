@@ -3,15 +3,20 @@
 namespace nbs {
 namespace {
 
-/// The object, and after its triangles the table's top as one large square.
-TriangleMesh MakeWorld(TriangleMesh world_W, const CellConfig& cell) {
-  if (!cell.table_z_m) return world_W;
-  constexpr float kHalf_m = 5.0f;
-  const auto z = static_cast<float>(*cell.table_z_m);
+/// The object, and after its triangles the table's top.
+TriangleMesh MakeWorld(TriangleMesh world_W, const RunConfig& config) {
+  if (!config.cell.table_z_m) return world_W;
+  const auto z = static_cast<float>(*config.cell.table_z_m);
+  const Eigen::Vector2f half = config.cell.table_half_m.cast<float>();
+  const Eigen::Vector2f middle = config.p_WO.head<2>().cast<float>();
   const auto first = static_cast<uint32_t>(world_W.vertices_W.size());
-  world_W.vertices_W.insert(
-      world_W.vertices_W.end(),
-      {{-kHalf_m, -kHalf_m, z}, {kHalf_m, -kHalf_m, z}, {kHalf_m, kHalf_m, z}, {-kHalf_m, kHalf_m, z}});
+  const auto corner = [&](float x, float y) {
+    world_W.vertices_W.emplace_back(middle.x() + x * half.x(), middle.y() + y * half.y(), z);
+  };
+  corner(-1, -1);
+  corner(1, -1);
+  corner(1, 1);
+  corner(-1, 1);
   world_W.triangles.push_back({first, first + 1, first + 2});
   world_W.triangles.push_back({first, first + 2, first + 3});
   return world_W;
@@ -21,7 +26,8 @@ TriangleMesh MakeWorld(TriangleMesh world_W, const CellConfig& cell) {
 
 SimulatorNode::SimulatorNode(const TriangleMesh& object_W, const RunConfig& config)
     : X_FS_(config.cell.X_FS),
-      scene_W_(MakeWorld(object_W, config.cell)),
+      pose_error_(PoseError::Make(config)),
+      scene_W_(MakeWorld(object_W, config)),
       profiler_(scene_W_, config.cell.profiler, config.seed, static_cast<uint32_t>(object_W.triangles.size())) {}
 
 void SimulatorNode::Handle(const Message& message, Outbox& out) {
@@ -33,7 +39,8 @@ void SimulatorNode::Handle(const Message& message, Outbox& out) {
   Profile profile;
   profile.utime_us = state.utime_us;
   if (state.scanning) {
-    profile.ranges_m = profiler_.TakeProfile(state.X_WF * X_FS_, scan_, profiles_in_scan_);
+    profile.ranges_m =
+        profiler_.TakeProfile(pose_error_.CalcTruePose(state.X_WF, state.utime_us) * X_FS_, scan_, profiles_in_scan_);
     ++profiles_in_scan_;
     out.push_back(std::move(profile));
   } else if (state.end_of_scan) {

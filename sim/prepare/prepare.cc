@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "common/config/suggestion.h"
+#include "common/kinematics/urdf_reader.h"
 #include "common/planning/method.h"
 #include "common/runtime/counter_random.h"
 #include "common/runtime/error.h"
@@ -120,6 +121,15 @@ std::string_view FindEnd(const Method& method) {
   }
 }
 
+/// A run folder stands by itself: it holds the arm's URDF.
+void KeepUrdf(RunConfig& config) {
+  const std::filesystem::path kept = config.folder / "robot.urdf";
+  std::error_code error;
+  std::filesystem::copy_file(config.cell.arm->urdf, kept, error);
+  if (error) throw ConfigError("Cannot write " + kept.string() + ": " + error.message() + ".");
+  config.cell.arm->urdf = kept;
+}
+
 }  // namespace
 
 std::string ListMethods() {
@@ -150,8 +160,10 @@ RunConfig PrepareRun(const RunRequest& request) {
   const Eigen::AlignedBox3d box_W = CalcBoundingBox(LoadObject(config));
   CheckSize(box_W, request.object);
   ResolvePlacement(box_W, config);
+  if (config.cell.arm) (void)ReadArm(config.cell.arm->urdf, config.cell.arm->base_link, config.cell.arm->flange_link);
   config.run_id = MakeRunId(config.name);
   MakeFolders(config.folder);
+  if (config.cell.arm) KeepUrdf(config);
   WriteRunConfig(config);
   return config;
 }

@@ -29,7 +29,7 @@ struct RunRequest {
 std::string ListMethods();
 
 /// Makes a run folder that services can start on: checks the request, loads cell and object, places voxel space and
-/// first path, and writes OUT/{run.yaml, streams/, logs/}.
+/// first path, and writes OUT/{run.yaml, streams/, logs/} and, for an arm, OUT/robot.urdf.
 ///
 /// An existing folder is taken only if it is empty: an earlier run, finished or not, and any other folder are never
 /// touched. Nothing is written before everything is checked.

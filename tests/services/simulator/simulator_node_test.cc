@@ -80,6 +80,18 @@ TEST(SimulatorNode, HandEyeTransformPlacesTheSensorOnTheFlange) {
   EXPECT_NEAR(profiles[0].ranges_m[0], 0.35 / std::cos(0.5 * config.cell.profiler.fan_rad), 1e-6);
 }
 
+TEST(SimulatorNode, ProfileIsTakenWhereTheArmTrulyIs) {
+  RunConfig config = MakeNoiselessConfig();
+  SimulatorNode exact(MakeSquare(1.0f, 0.0f), config);
+  config.cell.arm.emplace().pose_bias_m = 0.01;
+  SimulatorNode biased(MakeSquare(1.0f, 0.0f), config);
+  const RobotState state = MakeScanningState(0, 0);
+  const double off_m = PoseError::Make(config).CalcBias(state.X_WF).z();
+  ASSERT_GT(std::abs(off_m), 1e-4);
+  const double cosine = std::cos(0.5 * config.cell.profiler.fan_rad / 223.0);
+  EXPECT_NEAR(cosine * (Feed(biased, {state})[0].ranges_m[112] - Feed(exact, {state})[0].ranges_m[112]), off_m, 1e-6);
+}
+
 TEST(SimulatorNode, TableBlocksAndGivesNoReturn) {
   RunConfig config = MakeNoiselessConfig();
   SimulatorNode without(MakeSquare(0.02f, 0.0f), config);
@@ -88,6 +100,10 @@ TEST(SimulatorNode, TableBlocksAndGivesNoReturn) {
   const std::vector<RobotState> states = {MakeScanningState(0, 0)};
   EXPECT_GT(Feed(without, states)[0].ranges_m[112], 0.39f);
   EXPECT_EQ(Feed(with, states)[0].ranges_m, std::vector<float>(224, 0.0f));
+  config.cell.table_half_m = {0.05, 0.05};
+  config.p_WO = {1.0, 0.0, 0.0};
+  SimulatorNode beside(MakeSquare(0.02f, 0.0f), config);
+  EXPECT_GT(Feed(beside, states)[0].ranges_m[112], 0.39f);
 }
 
 }  // namespace
