@@ -151,7 +151,7 @@ class Ladder {
     }
     std::reverse(chain.q.begin(), chain.q.end());
     chain.begin = static_cast<int>(k);
-    return {{static_cast<int>(k), number}, std::move(chain)};
+    return std::make_pair(std::make_pair(static_cast<int>(k), number), std::move(chain));
   }
 
   const ArmModel& model_;
