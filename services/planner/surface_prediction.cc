@@ -35,6 +35,17 @@ void VisitInner(const GridShape& shape, Visit&& visit) {
   }
 }
 
+/// The same from the last to the first.
+template <typename Visit>
+void VisitInnerBackward(const GridShape& shape, Visit&& visit) {
+  for (int z = shape.size.z() - 2; z > 0; --z) {
+    for (int y = shape.size.y() - 2; y > 0; --y) {
+      const int64_t first = shape.Index(1, y, z);
+      for (int64_t block = first + shape.size.x() - 3; block >= first; --block) visit(block);
+    }
+  }
+}
+
 /// Calls `visit(from, to)` for a ninth of a scan's beams, between the nearest and the largest depth.
 template <typename Visit>
 void VisitBeams(const Profiler& profiler, const ScanPath& path, Visit&& visit) {
@@ -69,7 +80,7 @@ SurfacePrediction::SurfacePrediction(const GridShape& shape, const SurfacePredic
   potential_.assign(shape_.cells(), -1.0f);
   fixed_.assign(shape_.cells(), 1);
   occupied_.assign(shape_.cells(), 0);
-  walls_.assign(shape_.cells(), 0);
+  room_.assign(shape_.cells(), kMaxRoom);
   looks_.assign(shape_.cells(), 0);
   missed_.assign(shape_.cells(), 0);
 }
@@ -100,7 +111,7 @@ void SurfacePrediction::AddScan(const VoxelGrid& grid, const Profiler& profiler,
 void SurfacePrediction::Update(const VoxelGrid& grid, const MeshReplica& mesh) {
   FixKnown(grid, mesh);
   Relax();
-  VisitInner(shape_, [this](int64_t block) { walls_[block] = occupied_[block] != 0 || potential_[block] > 0.0f; });
+  MeasureRoom();
   elements_.clear();
   FindElements();
   AddRim(mesh);
@@ -144,6 +155,28 @@ void SurfacePrediction::Relax() {
       u[b] += omega * (sum / (6.0f + pull) - u[b]);
     });
   }
+}
+
+void SurfacePrediction::MeasureRoom() {
+  std::vector<int64_t> before;  // The 13 neighbours that come earlier in index order.
+  for (int64_t dz = -1; dz <= 0; ++dz) {
+    for (int64_t dy = -1; dy <= 1; ++dy) {
+      for (int64_t dx = -1; dx <= 1; ++dx) {
+        const int64_t offset = dx + dy * stride_[1] + dz * stride_[2];
+        if (offset < 0) before.push_back(offset);
+      }
+    }
+  }
+  // One sweep forward and one backward are exact for this metric. The outermost layer is free and far enough.
+  const auto relax = [&](int64_t block, int64_t sign) {
+    uint8_t& room = room_[block];
+    for (const int64_t offset : before) room = std::min<uint8_t>(room, room_[block + sign * offset] + 1);
+  };
+  VisitInner(shape_, [&](int64_t block) {
+    room_[block] = occupied_[block] != 0 || potential_[block] > 0.0f ? 0 : kMaxRoom;
+    relax(block, 1);
+  });
+  VisitInnerBackward(shape_, [&](int64_t block) { relax(block, -1); });
 }
 
 bool SurfacePrediction::IsNearSurface(int64_t block) const {

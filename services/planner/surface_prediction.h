@@ -55,8 +55,10 @@ class SurfacePrediction {
 
   /// Predicted blocks in index order, then the border's edges in the order of FindBorderEdges.
   std::span<const SurfaceElement> elements() const { return elements_; }
-  /// Blocks that end a line of sight: measured surface, and the predicted inside; by block index, 0 or 1.
-  std::span<const uint8_t> walls() const { return walls_; }
+  /// Room around a block: 0 for what ends a line of sight (measured surface, and the predicted inside), otherwise the
+  /// number of steps between neighbours, corners included, to the nearest such block, at most kMaxRoom; by block index.
+  std::span<const uint8_t> room() const { return room_; }
+  static constexpr uint8_t kMaxRoom = 30;
   /// By block index, -1 (free) to 1 (inside).
   std::span<const float> potential() const { return potential_; }
   /// Of the blocks: the voxel space and one layer around it.
@@ -65,6 +67,7 @@ class SurfacePrediction {
  private:
   void FixKnown(const VoxelGrid& grid, const MeshReplica& mesh);
   void Relax();
+  void MeasureRoom();
   void FindElements();
   void AddRim(const MeshReplica& mesh);
   bool IsNearSurface(int64_t block) const;
@@ -77,7 +80,7 @@ class SurfacePrediction {
   std::vector<float> potential_;
   std::vector<uint8_t> fixed_;     ///< The potential is known.
   std::vector<uint8_t> occupied_;  ///< Holds an occupied voxel.
-  std::vector<uint8_t> walls_;
+  std::vector<uint8_t> room_;
   std::vector<uint8_t> looks_;   ///< Scans that looked through a block in vain.
   std::vector<uint8_t> missed_;  ///< Scans that should have seen an element in a block.
   std::vector<SurfaceElement> elements_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 namespace nbs {
 namespace {
@@ -15,6 +14,7 @@ constexpr float kSeedCosine = 0.7f;
 constexpr float kPatchCosine = 0.3f;
 /// Moves that keep this share of the gain stay candidates.
 constexpr double kNearlyAsGood = 0.9;
+constexpr uint32_t kEstimateStep = 4;  ///< Seeds are ranked by every fourth element.
 constexpr double kUnlike_m = 0.08;
 constexpr double kUnlike_rad = 0.4;
 
@@ -98,9 +98,7 @@ ScanPath Move(const ScanPath& path, int move, double scale, double standoff_m, c
   return moved;
 }
 
-std::vector<Proposal> Rate(const std::vector<ScanPath>& paths,
-                           const std::function<std::vector<double>(std::span<const ScanPath>)>& calc_gains) {
-  const std::vector<double> gains_nat = calc_gains(paths);
+std::vector<Proposal> Rate(const std::vector<ScanPath>& paths, const std::vector<double>& gains_nat) {
   std::vector<Proposal> proposals;
   proposals.reserve(paths.size());
   for (size_t i = 0; i < paths.size(); ++i) proposals.push_back({paths[i], gains_nat[i]});
@@ -109,6 +107,13 @@ std::vector<Proposal> Rate(const std::vector<ScanPath>& paths,
 
 void SortByGain(std::vector<Proposal>& proposals) {
   std::ranges::stable_sort(proposals, [](const Proposal& a, const Proposal& b) { return a.gain_nat > b.gain_nat; });
+}
+
+std::vector<ScanPath> TakeBest(std::vector<Proposal> proposals, size_t count) {
+  SortByGain(proposals);
+  std::vector<ScanPath> best;
+  for (size_t i = 0; i < std::min(count, proposals.size()); ++i) best.push_back(proposals[i].path);
+  return best;
 }
 
 /// The first of `sorted` that are not alike, at most `count`.
@@ -129,14 +134,14 @@ std::vector<Proposal> TakeUnlike(const std::vector<Proposal>& sorted, size_t cou
 std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, const SurfaceView& view,
                                        const Profiler& profiler, double voxel_m,
                                        const SurfaceSearchSettings& settings) {
-  const auto calc_gains = [&](std::span<const ScanPath> paths) {
-    return view.CalcGains(prediction, paths, voxel_m, settings.threads);
+  const auto rate = [&](const std::vector<ScanPath>& paths, uint32_t element_step) {
+    return Rate(paths, view.CalcGains(prediction, paths, voxel_m, settings.threads, element_step));
   };
   const std::span<const SurfaceElement> elements = prediction.elements();
   std::vector<ScanPath> paths;
   for (uint32_t seed : ChooseSeeds(elements, settings.seed_spacing_m))
     AddSeedPaths(elements, elements[seed], profiler.standoff_m, settings, paths);
-  std::vector<Proposal> proposals = Rate(paths, calc_gains);
+  std::vector<Proposal> proposals = rate(TakeBest(rate(paths, kEstimateStep), settings.max_candidates), 1);
   SortByGain(proposals);
 
   for (Proposal best : TakeUnlike(proposals, settings.improve, kUnlike_m, kUnlike_rad)) {
@@ -146,7 +151,7 @@ std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, cons
       for (int move = 0; move < kMoves; ++move)
         moved.push_back(Move(best.path, move, scale, profiler.standoff_m, settings.limits));
       const double gain_before = best.gain_nat;
-      for (const Proposal& trial : Rate(moved, calc_gains)) {
+      for (const Proposal& trial : rate(moved, 1)) {
         if (trial.gain_nat > kNearlyAsGood * gain_before) proposals.push_back(trial);
         if (trial.gain_nat > best.gain_nat) best = trial;
       }

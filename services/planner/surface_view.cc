@@ -1,10 +1,9 @@
 #include "services/planner/surface_view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <thread>
-
-#include "common/mapping/ray_walk.h"
 
 namespace nbs {
 namespace {
@@ -12,20 +11,26 @@ namespace {
 /// The prediction is coarse: walls so many blocks before an element do not hide it.
 constexpr float kBlindBlocks = 2.0f;
 
-/// Whether an element can be seen from a point.
+/// Whether an element can be seen from a point: walks the line in steps as long as the room around allows, at least
+/// half a block, which is as exact as a prediction in blocks deserves.
 bool IsInSight(const SurfacePrediction& prediction, const Eigen::Vector3f& from_W, const Eigen::Vector3f& element_W) {
-  const float blind_m = kBlindBlocks * static_cast<float>(prediction.shape().resolution_m);
-  const Eigen::Vector3f line_W = element_W - from_W;
-  const float length = line_W.norm();
-  if (length <= blind_m) return true;
-  const Eigen::Vector3f to_W = from_W + line_W * (1.0f - blind_m / length);
-  bool clear = true;
-  const std::span<const uint8_t> walls = prediction.walls();
-  WalkRay(MakeRayWalk(prediction.shape(), from_W.cast<double>(), to_W.cast<double>()), [&clear, walls](int64_t block) {
-    clear = walls[block] == 0;
-    return clear;
-  });
-  return clear;
+  const GridShape& shape = prediction.shape();
+  const auto block_m = static_cast<float>(shape.resolution_m);
+  // In blocks, from the element to the sensor: what hides an element is mostly near it.
+  const Eigen::Array3f start = (element_W - shape.origin_W.cast<float>()).array() / block_m;
+  const Eigen::Array3f line = (from_W - element_W).array() / block_m;
+  const float length = line.matrix().norm();
+  const float longest = line.abs().maxCoeff();
+  const std::span<const uint8_t> room = prediction.room();
+  float done = kBlindBlocks;
+  while (done < length) {
+    const Eigen::Array3f at = start + line * (done / length);
+    if ((at < 0.0f).any() || (at >= shape.size.cast<float>().array()).any()) return true;  // Outside all is free.
+    const int64_t block = shape.Index(static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z()));
+    if (room[block] == 0) return false;
+    done += std::max(0.5f, static_cast<float>(room[block] - 1) * length / longest);
+  }
+  return true;
 }
 
 }  // namespace
@@ -38,7 +43,8 @@ SurfaceView::SurfaceView(const Profiler& profiler, double incidence_margin_rad)
       camera_baseline_m_(static_cast<float>(profiler.camera_baseline_m)) {}
 
 template <typename Visit>
-void SurfaceView::VisitSeen(const SurfacePrediction& prediction, const ScanPath& path, Visit&& visit) const {
+void SurfaceView::VisitSeen(const SurfacePrediction& prediction, const ScanPath& path, uint32_t element_step,
+                            Visit&& visit) const {
   const Eigen::Vector3f start_W = path.X_WS_start.translation().cast<float>();
   const Eigen::Vector3f way_W = path.X_WS_end.translation().cast<float>() - start_W;
   const Eigen::Matrix3f R_WS = path.X_WS_start.linear().cast<float>();
@@ -46,7 +52,7 @@ void SurfaceView::VisitSeen(const SurfacePrediction& prediction, const ScanPath&
   if (std::abs(way_y) < 1e-6f) return;
   const Eigen::Vector3f to_camera_W = camera_baseline_m_ * R_WS.col(1);
   const std::span<const SurfaceElement> elements = prediction.elements();
-  for (uint32_t i = 0; i < elements.size(); ++i) {
+  for (uint32_t i = element_step / 2; i < elements.size(); i += element_step) {
     const SurfaceElement& element = elements[i];
     const float fraction = (element.p_W - start_W).dot(R_WS.col(1)) / way_y;
     if (!(fraction >= 0.0f && fraction <= 1.0f)) continue;
@@ -62,17 +68,22 @@ void SurfaceView::VisitSeen(const SurfacePrediction& prediction, const ScanPath&
   }
 }
 
-double SurfaceView::CalcGain(const SurfacePrediction& prediction, const ScanPath& path, double voxel_m) const {
+double SurfaceView::CalcArea(const SurfacePrediction& prediction, const ScanPath& path, uint32_t element_step) const {
   double area_m2 = 0.0;
-  VisitSeen(prediction, path, [&](uint32_t i) { area_m2 += prediction.elements()[i].area_m2; });
-  return area_m2 / (voxel_m * voxel_m) * std::numbers::ln2;
+  VisitSeen(prediction, path, element_step, [&](uint32_t i) { area_m2 += prediction.elements()[i].area_m2; });
+  return element_step * area_m2;
+}
+
+double SurfaceView::CalcGain(const SurfacePrediction& prediction, const ScanPath& path, double voxel_m) const {
+  return CalcArea(prediction, path, 1) / (voxel_m * voxel_m) * std::numbers::ln2;
 }
 
 std::vector<double> SurfaceView::CalcGains(const SurfacePrediction& prediction, std::span<const ScanPath> paths,
-                                           double voxel_m, int threads) const {
+                                           double voxel_m, int threads, uint32_t element_step) const {
   std::vector<double> gains_nat(paths.size());
   const auto work = [&](size_t first) {
-    for (size_t i = first; i < paths.size(); i += threads) gains_nat[i] = CalcGain(prediction, paths[i], voxel_m);
+    for (size_t i = first; i < paths.size(); i += threads)
+      gains_nat[i] = CalcArea(prediction, paths[i], element_step) / (voxel_m * voxel_m) * std::numbers::ln2;
   };
   std::vector<std::jthread> workers;
   for (int i = 1; i < threads; ++i) workers.emplace_back(work, i);
@@ -83,7 +94,7 @@ std::vector<double> SurfaceView::CalcGains(const SurfacePrediction& prediction, 
 
 std::vector<uint32_t> SurfaceView::FindSeen(const SurfacePrediction& prediction, const ScanPath& path) const {
   std::vector<uint32_t> seen;
-  VisitSeen(prediction, path, [&seen](uint32_t i) { seen.push_back(i); });
+  VisitSeen(prediction, path, 1, [&seen](uint32_t i) { seen.push_back(i); });
   return seen;
 }
 

@@ -25,15 +25,18 @@ class SurfaceView {
   double CalcGain(const SurfacePrediction& prediction, const ScanPath& path, double voxel_m) const;
 
   /// The same of each path, evaluated by `threads` threads (>= 1); equal to CalcGain one by one.
+  ///
+  /// @param element_step  >= 1; only every so many elements are looked at, and the sum is scaled to all.
   std::vector<double> CalcGains(const SurfacePrediction& prediction, std::span<const ScanPath> paths, double voxel_m,
-                                int threads) const;
+                                int threads, uint32_t element_step = 1) const;
 
   /// Numbers of the elements that a path sees, ascending.
   std::vector<uint32_t> FindSeen(const SurfacePrediction& prediction, const ScanPath& path) const;
 
  private:
   template <typename Visit>
-  void VisitSeen(const SurfacePrediction& prediction, const ScanPath& path, Visit&& visit) const;
+  void VisitSeen(const SurfacePrediction& prediction, const ScanPath& path, uint32_t element_step, Visit&& visit) const;
+  double CalcArea(const SurfacePrediction& prediction, const ScanPath& path, uint32_t element_step) const;
 
   float min_depth_m_ = 0.0f;
   float max_depth_m_ = 0.0f;

@@ -1,11 +1,18 @@
 #include "tests/whole/network.h"
 
 #include <algorithm>
+#include <chrono>
+#include <stdexcept>
 #include <utility>
 
+#include "common/messages/translate.h"
 #include "common/messages/wiring.h"
 
 namespace nbs {
+
+Network::Network() : bus_("memq://") {
+  for (const StreamWiring& wiring : Wiring()) bus_.Subscribe(std::string(wiring.channel));
+}
 
 void Network::Add(std::string_view service, std::unique_ptr<Node> node) {
   Member member{std::string(service), std::move(node), {}};
@@ -19,8 +26,9 @@ void Network::Run(const Observer& observer) {
   for (Member& member : members_) {
     Outbox out;
     member.node->Start(out);
-    Deliver(std::move(out), observer);
+    Publish(std::move(out), observer);
   }
+  Receive();
   for (bool progress = true; progress;) {
     progress = false;
     for (Member& member : members_) {
@@ -38,18 +46,37 @@ bool Network::Step(Member& member, const Observer& observer) {
   queue.pop_front();
   Outbox out;
   member.node->Handle(*message, out);
-  Deliver(std::move(out), observer);
+  Publish(std::move(out), observer);
+  Receive();
   return true;
 }
 
-void Network::Deliver(Outbox&& out, const Observer& observer) {
+void Network::Publish(Outbox&& out, const Observer& observer) {
   for (Message& message : out) {
     if (observer) observer(message);
-    const auto shared = std::make_shared<const Message>(std::move(message));
-    for (Member& member : members_) {
-      if (const auto input = member.inputs.find(shared->index()); input != member.inputs.end())
-        input->second.push_back(shared);
+    const StreamWiring& wiring = Wiring()[message.index()];
+    for (const Message& part : SplitForBus(std::move(message))) {
+      bus_.Publish(wiring.channel, Encode({.seq = published_++, .source = std::string(wiring.sender)}, part));
     }
+  }
+}
+
+void Network::Receive() {
+  while (received_ < published_) {
+    bus_.Poll(std::chrono::seconds(1), [this](std::string_view channel, std::span<const uint8_t> data) {
+      ++received_;
+      Accept(channel, data);
+    });
+  }
+}
+
+void Network::Accept(std::string_view channel, std::span<const uint8_t> data) {
+  const size_t stream = std::ranges::find(Wiring(), channel, &StreamWiring::channel)->stream;
+  Decoded decoded = Decode(stream, data);
+  if (!decoded.message) throw std::logic_error(std::string(channel) + ": " + decoded.refusal);
+  const auto shared = std::make_shared<const Message>(std::move(*decoded.message));
+  for (Member& member : members_) {
+    if (const auto input = member.inputs.find(stream); input != member.inputs.end()) input->second.push_back(shared);
   }
 }
 

@@ -108,6 +108,26 @@ TEST(SurfacePrediction, ALookInVainPushesThePredictedSurfaceBack) {
   EXPECT_GT(lowest(prediction), before + 0.005f);
 }
 
+TEST(SurfacePrediction, RoomIsTheDistanceToTheNearestWall) {
+  const SurfacePrediction prediction = Predict(HalfSeenBall());
+  const Eigen::Vector3i size = prediction.shape().size;
+  std::vector<Eigen::Vector3i> walls, all;
+  for (int z = 1; z + 1 < size.z(); ++z) {
+    for (int y = 1; y + 1 < size.y(); ++y) {
+      for (int x = 1; x + 1 < size.x(); ++x) {
+        all.emplace_back(x, y, z);
+        if (prediction.room()[prediction.shape().Index(x, y, z)] == 0) walls.emplace_back(x, y, z);
+      }
+    }
+  }
+  ASSERT_FALSE(walls.empty());
+  for (const Eigen::Vector3i& block : all) {
+    int nearest = SurfacePrediction::kMaxRoom;
+    for (const Eigen::Vector3i& wall : walls) nearest = std::min(nearest, (wall - block).cwiseAbs().maxCoeff());
+    ASSERT_EQ(prediction.room()[prediction.shape().Index(block.x(), block.y(), block.z())], nearest);
+  }
+}
+
 TEST(SurfacePrediction, TheSameRoundsGiveTheSame) {
   const HalfSeenBall ball;
   SurfacePrediction a = Predict(ball), b = Predict(ball);
