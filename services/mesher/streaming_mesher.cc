@@ -7,6 +7,9 @@ namespace nbs {
 namespace {
 
 constexpr float kNormalUnit = 32767.0f;
+constexpr int32_t kLastScan = 0xffff;
+// A number further ahead is of no scan that anybody has begun, and would shut out all that follow.
+constexpr int32_t kMostScansSkipped = 16;
 
 }  // namespace
 
@@ -24,9 +27,9 @@ bool StreamingMesher::IsAcceptable(const Stripe& stripe) const {
     if (static_cast<int>(stripe.ranges_m.size()) != profiler_.points || !IsRigid(stripe.X_WS)) return false;
     if (stripe.X_WS.translation().cwiseAbs().maxCoeff() > 0.5 * BrickGrid::kReach_m) return false;
   }
-  if (stripe.scan < 0 || stripe.scan > 0xffff) return false;
+  if (stripe.scan < 0 || stripe.scan > kLastScan || stripe.index < 0) return false;
   if (!scan_begun_) return true;
-  if (stripe.scan != scan_.scan) return stripe.scan > scan_.scan;
+  if (stripe.scan != scan_.scan) return stripe.scan > scan_.scan && stripe.scan - scan_.scan <= kMostScansSkipped;
   return !scan_ended_ && stripe.index > last_index_;
 }
 

@@ -52,7 +52,7 @@ struct StreamingMesherSettings {
 
 /// Counts over the life of the mesher.
 struct MesherCounts {
-  int64_t refused_stripes = 0;       ///< Pose not rigid, wrong number of ranges, or not after the stripe before it.
+  int64_t refused_stripes = 0;       ///< Pose not rigid, wrong number of ranges, twice, or of an unknown scan.
   int64_t refused_measurements = 0;  ///< Not finite, negative, or further than twice the depth of field.
 };
 
@@ -72,9 +72,9 @@ class StreamingMesher {
   /// Folds one stripe in. A closing stripe ends the scan (its pose does not matter): points that found no support are
   /// forgotten.
   ///
-  /// Refuses, and counts, a stripe whose pose is not rigid or further than 500 m off, that has not one range a beam, or
-  /// that does not come after the stripe before it; and single ranges that are not finite, negative or beyond twice the
-  /// depth of field. A range of 0 is no return.
+  /// Refuses, and counts, a stripe whose pose is not rigid or further than 500 m off, that has not one range a beam,
+  /// that does not come after the stripe before it, or whose scan is more than 16 ahead of it; and single ranges that
+  /// are not finite, negative or beyond twice the depth of field. A range of 0 is no return.
   ///
   /// @returns False if the stripe was refused as a whole.
   bool AddStripe(const Stripe& stripe);

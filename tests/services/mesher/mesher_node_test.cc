@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/services/mesher/synthetic_scan.h"
 
 namespace nbs {
@@ -60,6 +62,23 @@ TEST(MesherNode, RefusedStripeShowsInTheComplaints) {
   stripes[5].X_WS.linear() *= 2.0;
   Fold(node, stripes);
   EXPECT_EQ(node.Complaints()[0].count, 1);
+}
+
+TEST(MesherNode, BadInputOfEachKindIsCountedAndTheMeshStaysSound) {
+  MesherNode node{RunConfig{}};
+  auto stripes = MakeScan(0);
+  stripes[3].X_WS.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  stripes[7] = stripes[6];
+  stripes[9].scan = 40'000;
+  stripes[20].ranges_m[100] = std::numeric_limits<float>::quiet_NaN();
+  stripes[21].ranges_m[100] = -0.3f;
+  MeshReplica replica;
+  for (const Message& message : Fold(node, stripes)) {
+    if (const auto* delta = std::get_if<MeshDelta>(&message)) replica.Apply(*delta);
+  }
+  EXPECT_EQ(node.Complaints()[0].count, 3);
+  EXPECT_EQ(node.Complaints()[1].count, 2);
+  EXPECT_GT(replica.MakeCompactMesh().triangles.size(), 1000u);
 }
 
 }  // namespace

@@ -319,6 +319,44 @@ TEST(StreamingMesher, BadStripesAreRefusedAndCounted) {
   EXPECT_TRUE(bench.mesher.AddStripe(stripes[1]));
 }
 
+TEST(StreamingMesher, StripesOfUnknownScansAreRefusedAndShutNothingOut) {
+  Bench bench;
+  auto stripes = ScanSolid(MakeSquareSlab(), {}, MakeDownSweep(3, 0.01, 0.3));
+  for (Stripe& stripe : stripes) EXPECT_TRUE(bench.mesher.AddStripe(stripe));
+  for (int32_t scan : {-1, 2, 3, 20, 60'000, 70'000}) {
+    Stripe stripe = stripes[0];
+    stripe.scan = scan;
+    EXPECT_FALSE(bench.mesher.AddStripe(stripe)) << scan;
+  }
+  EXPECT_EQ(bench.mesher.counts().refused_stripes, 6);
+  EXPECT_EQ(bench.mesher.CalcScanFigures().refused, 6);
+  Stripe next = stripes[0];
+  next.scan = 4;
+  EXPECT_TRUE(bench.mesher.AddStripe(next));
+}
+
+TEST(StreamingMesher, MeshIsTheSameWithBadInputBetweenTheStripes) {
+  Bench clean, disturbed;
+  const auto stripes = ScanSolid(MakeSquareSlab(), {}, MakeDownSweep(0, 0.05, 0.3));
+  for (const Stripe& stripe : stripes) {
+    clean.mesher.AddStripe(stripe);
+    Stripe bad = stripe;
+    bad.X_WS.linear() *= 1.1;
+    EXPECT_EQ(disturbed.mesher.AddStripe(bad), stripe.end_of_scan) << "the pose of a closing stripe does not matter";
+    if (stripe.end_of_scan) break;
+    bad = stripe;
+    bad.X_WS.translation().y() = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(disturbed.mesher.AddStripe(bad));
+    bad = stripe;
+    bad.scan = -1;
+    EXPECT_FALSE(disturbed.mesher.AddStripe(bad));
+    EXPECT_TRUE(disturbed.mesher.AddStripe(stripe));
+    EXPECT_FALSE(disturbed.mesher.AddStripe(stripe)) << "twice";
+  }
+  EXPECT_EQ(clean.mesher.TakeDelta(), disturbed.mesher.TakeDelta());
+  EXPECT_EQ(disturbed.mesher.counts().refused_stripes, 4 * static_cast<int64_t>(stripes.size() - 1));
+}
+
 TEST(StreamingMesher, DeltaWithoutNewStripesIsEmpty) {
   Bench bench;
   bench.Scan(MakeSquareSlab(), MakeDownSweep(0, 0.12, 0.3));
