@@ -69,17 +69,25 @@ double CoverageOracle::CalcRmse(const TriangleMesh& mesh_W) const {
   return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
 }
 
-Coverage CoverageOracle::Evaluate(const TriangleMesh& mesh_W) const {
+std::vector<uint8_t> CoverageOracle::FindCovered(const TriangleMesh& mesh_W) const {
   const TriangleScene scene(mesh_W);
   const double min_cosine = std::cos(settings_.max_angle_rad);
+  std::vector<uint8_t> covered;
+  covered.reserve(samples_.size());
+  for (const SurfaceSample& sample : samples_) {
+    const auto partner = scene.FindClosestFacing(sample.p_W, settings_.max_distance_m, sample.normal_W, min_cosine);
+    covered.push_back(partner.has_value());
+  }
+  return covered;
+}
+
+Coverage CoverageOracle::Evaluate(const TriangleMesh& mesh_W) const {
+  const std::vector<uint8_t> is_covered = FindCovered(mesh_W);
   int64_t covered = 0, observable = 0, both = 0;
   for (size_t i = 0; i < samples_.size(); ++i) {
-    const SurfaceSample& sample = samples_[i];
-    const bool has_partner =
-        scene.FindClosestFacing(sample.p_W, settings_.max_distance_m, sample.normal_W, min_cosine).has_value();
-    covered += has_partner;
+    covered += is_covered[i];
     observable += observable_[i];
-    both += has_partner && observable_[i] != 0;
+    both += is_covered[i] != 0 && observable_[i] != 0;
   }
   Coverage result;
   result.coverage = static_cast<double>(covered) / static_cast<double>(samples_.size());

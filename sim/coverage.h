@@ -42,6 +42,11 @@ class CoverageOracle {
   /// Share of the truth's surface that can be observed.
   double observable_share() const { return observable_share_; }
 
+  const std::vector<SurfaceSample>& samples() const { return samples_; }
+
+  /// For each sample 1 if it has a partner in the reconstruction, else 0.
+  std::vector<uint8_t> FindCovered(const TriangleMesh& mesh_W) const;
+
   /// @param mesh_W  The reconstruction; only vertices that a triangle uses count for the RMS error.
   Coverage Evaluate(const TriangleMesh& mesh_W) const;
 

@@ -8,9 +8,10 @@ import plots
 import runs
 import tables
 
-RIM_TEXT = ("Length in m of the mesh's border after the last scan, by what lies beyond it. seam: surface that is measured as well, by the mesh's other side or another sheet; base: only the table is in the "
-            "way; depth of field: it can be looked at, but only from nearer than the profiler sees; occluded: no line of sight at all; no room: a line of sight, but the sensor's body does not fit; open: "
-            "it could have been scanned. What the planner did with its candidates for what is open stands in the table of verdicts.")
+RIM_TEXT = ("Length in m of the mesh's border after the last scan, by why the surface beyond it is missing (sim/remainder.h). open: nothing stands in the way, it could have been scanned; no room: "
+            "the sensor's body does not fit anywhere from where it could be measured; base: only the table is in the way; depth of field: too narrow, lines of sight end before the nearest depth; "
+            "occluded: hidden by the object itself; seam: beside it nothing is missing, a crack or a gap of a few millimetres. Why the planner left what is open stands in the table of verdicts.")
+MISSING_TEXT = "Share of the true surface that is missing, in %, by the same reasons; the mean over the seeds."
 
 
 def write(file, text):
@@ -59,6 +60,8 @@ def add_rims(page, experiments, name):
         page.heading("What is left open", 3)
         page.text(RIM_TEXT)
         page.table(header, rows)
+        page.text(MISSING_TEXT)
+        page.table(*tables.make_missing_table(experiments, name))
     page.heading("Verdicts on the candidates", 3)
     page.text("Mean over the seeds, counted in every round; in brackets those of the rounds after the last scan.")
     page.table(*tables.make_verdict_table(experiments, name))

@@ -153,7 +153,7 @@ def make_means(experiments):
 def make_quality_table(experiments, object_name):
     """After the last scan of each run."""
     header = ["method", "seeds", "scans done", "ended because", "completeness %", "RMS error mm", "of what can be seen %", "slowest selection s", "refused measurements",
-              "contacts with the object", "s of wall time"]
+              "contacts with the object", "nearest mm", "s of wall time"]
     rows = []
     for method in experiments.methods:
         runs = experiments.of(object_name, method)
@@ -167,7 +167,8 @@ def make_quality_table(experiments, object_name):
                      mean_and_spread([100 * report["completeness"] for report in reports], 2), mean_and_spread([report["rmse_mm"] for report in reports], 3),
                      mean_and_spread([100 * report["observable_coverage"] for report in reports], 2), f"{max(slowest):.2f}",
                      mean_and_spread([report["refused_measurements"] for report in reports], 0),
-                     NONE if None in contacts else sum(contacts), mean_and_spread([report["wall_s"] for report in reports], 0)])
+                     NONE if None in contacts else sum(contacts), NONE if None in contacts else f"{min(report['nearest_mm'] for report in reports):.1f}",
+                     mean_and_spread([report["wall_s"] for report in reports], 0)])
     return header, rows
 
 
@@ -193,18 +194,25 @@ def sum_verdicts(report):
 
 
 def make_rim_table(experiments, object_name):
-    """Length in m of what is left of the mesh's border, by what is beyond it; the mean over the seeds."""
-    kinds = []
-    for run in experiments.runs:
-        kinds += [kind for kind in run.report.get("rims", {}) if run.object == object_name and kind not in kinds]
-    header = ["method", "rim m"] + [kind.removesuffix("_m").replace("_", " ") for kind in kinds]
+    """Length in m of what is left of the mesh's border, by why the surface beyond it is missing."""
+    return make_kinds_table(experiments, object_name, "rims_m", ("rim m", lambda report: report["rim_length_m"]), 1)
+
+
+def make_missing_table(experiments, object_name):
+    """Share of the true surface that is missing in %, by why."""
+    return make_kinds_table(experiments, object_name, "missing", ("missing %", lambda report: 100 * (1 - report["coverage"])), 100)
+
+
+def make_kinds_table(experiments, object_name, key, whole, factor):
+    runs = [run for run in experiments.runs if run.object == object_name and run.report.get(key)]
+    kinds = list(dict.fromkeys(kind for run in runs for kind in run.report[key]))
     rows = []
     for method in experiments.methods:
-        runs = [run for run in experiments.of(object_name, method) if run.report.get("rims")]
-        if runs:
-            rows.append([method, mean_and_spread([run.report["rim_length_m"] for run in runs], 2)]
-                        + [mean_and_spread([run.report["rims"].get(kind) for run in runs], 2) for kind in kinds])
-    return header, rows
+        reports = [run.report for run in runs if run.method == method]
+        if reports:
+            rows.append([method, mean_and_spread(list(map(whole[1], reports)), 2)]
+                        + [mean_and_spread([factor * report[key].get(kind, 0.0) for report in reports], 2) for kind in kinds])
+    return ["method", whole[0]] + [kind.replace("_", " ") for kind in kinds], rows
 
 
 WANTED_TEXT = f"{100 * WANTED_COMPLETENESS:g} %"

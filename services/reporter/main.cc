@@ -14,14 +14,25 @@
 
 namespace {
 
+/// The sensor's poses at all states of the robot.
+std::vector<nbs::Pose> ReadSensorPoses(const nbs::RunConfig& config) {
+  std::vector<nbs::Pose> poses_WS;
+  nbs::StreamReader reader(config.folder, nbs::StreamOf<nbs::RobotState>());
+  while (const auto message = reader.Next()) {
+    poses_WS.push_back(std::get<nbs::RobotState>(*message).X_WF * config.cell.X_FS);
+  }
+  return poses_WS;
+}
+
 /// Exit code 0 if the outputs are written, whatever the end of the run; 1 on bad input; 2 otherwise.
 int WriteOffline(const std::filesystem::path& run_folder) {
   try {
     const nbs::RunConfig config = nbs::ReadRunConfig(run_folder);
-    nbs::ReporterNode reporter(config.grid, nbs::MakeEvaluator(config), nullptr);
+    const nbs::Truth truth(config);
+    nbs::ReporterNode reporter(config.grid, truth.MakeEvaluator(), nullptr);
     nbs::RunOffline(reporter, run_folder);
     nbs::MergeHistories(run_folder / "streams", run_folder / "bus.lcm");
-    nbs::WriteOutputs(config, reporter);
+    nbs::WriteOutputs(config, reporter, truth.Find(reporter.mesh().MakeCompactMesh(), ReadSensorPoses(config)));
     return 0;
   } catch (const nbs::ConfigError& error) {
     std::cerr << "nbs-reporter: " << error.what() << "\n";
@@ -39,6 +50,6 @@ int main(int argc, char** argv) {
   char** const run = std::find(argv + 1, argv + argc, std::string_view("--run"));
   if (offline != argv + argc && argc == 4 && run + 1 < argv + argc) return WriteOffline(run[1]);
   return nbs::RunService("reporter", argc, argv, [](const nbs::RunConfig& config) {
-    return std::make_unique<nbs::ReporterNode>(config.grid, nbs::MakeEvaluator(config), &std::cout);
+    return std::make_unique<nbs::ReporterNode>(config.grid, nbs::Truth(config).MakeEvaluator(), &std::cout);
   });
 }

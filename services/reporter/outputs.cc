@@ -66,13 +66,13 @@ void WriteModel(const MeshReplica& mesh, const fs::path& file) {
   WriteMeshPly(file, mesh.MakeCompactMesh(), extra);
 }
 
-void WriteOutputs(const RunConfig& config, const ReporterNode& reporter) {
+void WriteOutputs(const RunConfig& config, const ReporterNode& reporter, const Findings& findings) {
   const double wall_s = CalcWallTime(config.folder);
   WriteModel(reporter.mesh(), config.folder / "model.ply");
   WriteOctomap(reporter.voxels(), config.folder / "voxels.ot");
-  WriteText(config.folder / "report.json", MakeReportJson(config, reporter.record(), wall_s));
-  WriteText(config.folder / "report.html",
-            MakeReportHtml(config, reporter.record(), wall_s, RenderPictures(reporter.mesh().MakeCompactMesh())));
+  WriteText(config.folder / "report.json", MakeReportJson(config, reporter.record(), findings, wall_s));
+  WriteText(config.folder / "report.html", MakeReportHtml(config, reporter.record(), findings, wall_s,
+                                                          RenderPictures(reporter.mesh().MakeCompactMesh())));
 }
 
 }  // namespace nbs

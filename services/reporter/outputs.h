@@ -11,7 +11,7 @@ namespace nbs {
 /// or not at all; what was there before is replaced.
 ///
 /// @throws ConfigError, std::runtime_error in one sentence if a file cannot be written.
-void WriteOutputs(const RunConfig& config, const ReporterNode& reporter);
+void WriteOutputs(const RunConfig& config, const ReporterNode& reporter, const Findings& findings);
 
 /// The mesh as model.ply holds it, with the properties of its vertices.
 void WriteModel(const MeshReplica& mesh, const std::filesystem::path& file);

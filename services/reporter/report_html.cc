@@ -154,6 +154,50 @@ std::string MakeVerdictTable(const RunRecord& record) {
   return html + "</table>\n";
 }
 
+const char* Explain(Missing kind) {
+  switch (kind) {
+    case Missing::kOpen:
+      return "nothing stands in the way: it could have been scanned";
+    case Missing::kNoRoom:
+      return "can be seen, but the sensor's body does not fit anywhere from where it could be measured";
+    case Missing::kBase:
+      return "only the table is in the way";
+    case Missing::kDepthOfField:
+      return "too narrow: lines of sight end before the nearest depth";
+    case Missing::kOccluded:
+      return "hidden by the object itself";
+  }
+  return "";
+}
+
+std::string MakeFindings(const Findings& findings) {
+  std::string html;
+  if (findings.remainder) {
+    html +=
+        "<h2>What is missing, by the truth</h2>\n<table><tr><th class='text'>why</th><th>share of the "
+        "surface</th><th>rim m</th><th "
+        "class='text'>meaning</th></tr>\n";
+    for (int k = 0; k < kMissingKinds; ++k) {
+      const auto kind = static_cast<Missing>(k);
+      html += fmt::format("<tr><td class='text'>{}</td><td>{}</td><td>{:.2f}</td><td class='text'>{}</td></tr>\n",
+                          ToString(kind), Percent(findings.remainder->missing[k]), findings.remainder->rim_m[k],
+                          Explain(kind));
+    }
+    html += fmt::format(
+        "<tr><td class='text'>seam</td><td>-</td><td>{:.2f}</td><td class='text'>beside it nothing is missing: a "
+        "crack, or a gap of a few millimetres</td></tr>\n</table>\n",
+        findings.remainder->seam_m);
+  }
+  if (findings.contacts) {
+    html += fmt::format(
+        "<p{}>The sensor's body touched the true object in {} of {} states of the robot; nearest distance {:.1f} "
+        "mm.</p>\n",
+        findings.contacts->touching > 0 ? " class='bad'" : "", findings.contacts->touching, findings.contacts->states,
+        1e3 * findings.contacts->nearest_m);
+  }
+  return html;
+}
+
 std::string MakePictures(const std::vector<ReportPicture>& pictures) {
   std::string html = "<div class='pictures'>\n";
   for (const ReportPicture& picture : pictures) {
@@ -166,7 +210,7 @@ std::string MakePictures(const std::vector<ReportPicture>& pictures) {
 
 }  // namespace
 
-std::string MakeReportHtml(const RunConfig& config, const RunRecord& record, double wall_s,
+std::string MakeReportHtml(const RunConfig& config, const RunRecord& record, const Findings& findings, double wall_s,
                            const std::vector<ReportPicture>& pictures) {
   std::string html = "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'><title>" + EscapeHtml(config.name) +
                      "</title><style>" + kStyle + "</style></head><body>\n<h1>Scan of " +
@@ -178,6 +222,7 @@ std::string MakeReportHtml(const RunConfig& config, const RunRecord& record, dou
     html += "<h2>Progress</h2>\n<div class='plots'>\n" + MakePlot(record, "scans", false) +
             MakePlot(record, "path length, m", true) + "</div>\n";
   }
+  html += MakeFindings(findings);
   html += "<h2>Scans</h2>\n" + MakeScanTable(record);
   html += "<h2>What became of the candidates</h2>\n" + MakeVerdictTable(record);
   return html + "</body></html>\n";

@@ -17,7 +17,7 @@ struct ReportPicture {
 
 /// The text of report.html, one file that needs nothing else: the run in figures, coverage and completeness over scans
 /// and over path length, the table of scans, the verdicts with what each means, and the pictures.
-std::string MakeReportHtml(const RunConfig& config, const RunRecord& record, double wall_s,
+std::string MakeReportHtml(const RunConfig& config, const RunRecord& record, const Findings& findings, double wall_s,
                            const std::vector<ReportPicture>& pictures);
 
 }  // namespace nbs

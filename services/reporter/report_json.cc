@@ -20,6 +20,21 @@ ordered_json MakeVerdicts(const std::array<int, kVerdicts>& counts) {
   return verdicts;
 }
 
+ordered_json MakeByKind(const std::array<double, kMissingKinds>& values) {
+  ordered_json json = ordered_json::object();
+  for (int kind = 0; kind < kMissingKinds; ++kind)
+    json[std::string(ToString(static_cast<Missing>(kind)))] = values[kind];
+  return json;
+}
+
+ordered_json MakeMissing(const Remainder& remainder) { return MakeByKind(remainder.missing); }
+
+ordered_json MakeRims(const Remainder& remainder) {
+  ordered_json json = MakeByKind(remainder.rim_m);
+  json["seam"] = remainder.seam_m;
+  return json;
+}
+
 ordered_json MakeScan(const ScanRecord& scan) {
   const bool selected = scan.mode != PlanMode::kFirst;
   ordered_json json;
@@ -47,7 +62,7 @@ ordered_json MakeScan(const ScanRecord& scan) {
 
 }  // namespace
 
-std::string MakeReportJson(const RunConfig& config, const RunRecord& record, double wall_s) {
+std::string MakeReportJson(const RunConfig& config, const RunRecord& record, const Findings& findings, double wall_s) {
   const ScanRecord* last = record.scans.empty() ? nullptr : &record.scans.back();
   const Evaluation* evaluation = last != nullptr && last->evaluation ? &*last->evaluation : nullptr;
   const auto from_last = [&](auto member) {
@@ -73,6 +88,11 @@ std::string MakeReportJson(const RunConfig& config, const RunRecord& record, dou
   json["triangles"] = from_last(&ScanRecord::triangles);
   json["wall_s"] = wall_s;
   json["refused_measurements"] = record.refused_measurements;
+  json["states"] = findings.contacts ? ordered_json(findings.contacts->states) : ordered_json(nullptr);
+  json["contacts"] = findings.contacts ? ordered_json(findings.contacts->touching) : ordered_json(nullptr);
+  json["nearest_mm"] = findings.contacts ? ordered_json(1e3 * findings.contacts->nearest_m) : ordered_json(nullptr);
+  json["rims_m"] = findings.remainder ? MakeRims(*findings.remainder) : ordered_json(nullptr);
+  json["missing"] = findings.remainder ? MakeMissing(*findings.remainder) : ordered_json(nullptr);
   json["last_verdicts"] = MakeVerdicts(record.last_verdicts);
   json["scans"] = ordered_json::array();
   for (const ScanRecord& scan : record.scans) json["scans"].push_back(MakeScan(scan));

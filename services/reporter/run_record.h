@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "common/planning/scan_path.h"
+#include "sim/contacts.h"
+#include "sim/remainder.h"
 
 namespace nbs {
 
@@ -47,6 +49,12 @@ struct RunRecord {
   bool failed = false;
   int64_t refused_measurements = 0;
   std::array<int, kVerdicts> last_verdicts{};  ///< Of the rounds after the last scan: why nothing more was scanned.
+};
+
+/// What the truth says about a run that is over; empty where no truth is known.
+struct Findings {
+  std::optional<Remainder> remainder;  ///< What the last mesh lacks; none without a scan.
+  std::optional<Contacts> contacts;    ///< Of the sensor's body with the true object, at every state of the robot.
 };
 
 /// Length of all scan paths, metres (without the motions between them).

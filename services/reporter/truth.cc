@@ -1,22 +1,54 @@
 #include "services/reporter/truth.h"
 
-#include <memory>
-
 #include "sim/coverage.h"
 #include "sim/load_object.h"
 
 namespace nbs {
+namespace {
 
-ReporterNode::Evaluator MakeEvaluator(const RunConfig& config) {
-  if (!HasTruth(config)) return {};
+CoverageSettings MakeCoverageSettings(const CellConfig& cell) {
   CoverageSettings settings;
-  settings.profiler = config.cell.profiler;
-  settings.table_z_m = config.cell.table_z_m;
-  const auto oracle = std::make_shared<const CoverageOracle>(LoadObject(config), settings);
-  return [oracle](const TriangleMesh& mesh_W) {
-    const Coverage rated = oracle->Evaluate(mesh_W);
+  settings.profiler = cell.profiler;
+  settings.table_z_m = cell.table_z_m;
+  return settings;
+}
+
+}  // namespace
+
+struct Truth::Object {
+  Object(TriangleMesh mesh, const CellConfig& cell)
+      : mesh_W(std::move(mesh)), oracle(mesh_W, MakeCoverageSettings(cell)) {}
+
+  TriangleMesh mesh_W;
+  CoverageOracle oracle;
+};
+
+Truth::Truth(const RunConfig& config) : cell_(config.cell) {
+  if (HasTruth(config)) object_ = std::make_shared<const Object>(LoadObject(config), config.cell);
+}
+
+Truth::~Truth() = default;
+
+ReporterNode::Evaluator Truth::MakeEvaluator() const {
+  if (!object_) return {};
+  return [object = object_](const TriangleMesh& mesh_W) {
+    const Coverage rated = object->oracle.Evaluate(mesh_W);
     return Evaluation{rated.coverage, rated.observable_coverage, rated.rmse_m};
   };
+}
+
+Findings Truth::Find(const TriangleMesh& mesh_W, std::span<const Pose> poses_WS) const {
+  if (!object_) return {};
+  Findings findings;
+  findings.contacts = FindContacts(TriangleScene(object_->mesh_W), cell_.sensor_body_S, poses_WS);
+  if (mesh_W.triangles.empty()) return findings;
+  RemainderSettings settings;
+  settings.profiler = cell_.profiler;
+  settings.table_z_m = cell_.table_z_m;
+  settings.body_S = cell_.sensor_body_S;
+  settings.body_margin_m = cell_.body_margin_m;
+  findings.remainder = RemainderExplainer(object_->mesh_W, object_->oracle, settings).Explain(mesh_W);
+  return findings;
 }
 
 }  // namespace nbs

@@ -151,9 +151,11 @@ class Page(unittest.TestCase):
         self.assertIn("| oracle | – | – | 3 | – | 1.50 | – | – | – | ≥ 97.00 | – |", page)
 
     def test_rims_are_listed_by_kind(self):
-        rims = {"seam_m": 0.25, "occluded_m": 0.5}
-        self.add_run("putto", "BH-IG", 1, make_report([make_scan(0.3), make_scan(0.97)], rims=rims))
-        self.assertIn("| method | rim m | seam | occluded |\n|---|---|---|---|\n| BH/IG | 1.00 | 0.25 | 0.50 |", self.make_page())
+        rims_m = {"occluded": 0.5, "seam": 0.25}
+        self.add_run("putto", "BH-IG", 1, make_report([make_scan(0.3), make_scan(0.97)], rims_m=rims_m, missing={"occluded": 0.02, "open": 0.01}))
+        page = self.make_page()
+        self.assertIn("| method | rim m | occluded | seam |\n|---|---|---|---|\n| BH/IG | 1.00 | 0.50 | 0.25 |", page)
+        self.assertIn("| method | missing % | occluded | open |\n|---|---|---|---|\n| BH/IG | 3.00 | 2.00 | 1.00 |", page)
 
     def test_html_is_escaped(self):
         page = document.Document("a < b")

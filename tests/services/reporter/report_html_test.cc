@@ -14,20 +14,35 @@ using ::testing::Not;
 TEST(ReportHtml, NamesOfTheUserAreEscaped) {
   RunConfig config;
   config.object = "<script>alert('x')</script>";
-  const std::string html = MakeReportHtml(config, RunRecord{}, 1.0, {});
+  const std::string html = MakeReportHtml(config, RunRecord{}, {}, 1.0, {});
   EXPECT_THAT(html, Not(HasSubstr("<script>")));
   EXPECT_THAT(html, HasSubstr("&lt;script&gt;"));
 }
 
 TEST(ReportHtml, PicturesAreInTheFileItself) {
   // "Man" is the textbook example of base 64, and "Ma" that of its padding.
-  const std::string html = MakeReportHtml(RunConfig{}, RunRecord{}, 1.0, {{"front", "ManMa"}});
+  const std::string html = MakeReportHtml(RunConfig{}, RunRecord{}, {}, 1.0, {{"front", "ManMa"}});
   EXPECT_THAT(html, HasSubstr("data:image/png;base64,TWFuTWE="));
 }
 
 TEST(ReportHtml, EveryVerdictIsExplained) {
-  const std::string html = MakeReportHtml(RunConfig{}, RunRecord{}, 1.0, {});
+  const std::string html = MakeReportHtml(RunConfig{}, RunRecord{}, {}, 1.0, {});
   for (int v = 0; v < kVerdicts; ++v) EXPECT_THAT(html, HasSubstr(std::string(ToString(static_cast<Verdict>(v)))));
+}
+
+TEST(ReportHtml, ContactsAreMarkedAsBad) {
+  Findings findings;
+  findings.contacts = Contacts{120, 0, 0.02};
+  EXPECT_THAT(MakeReportHtml(RunConfig{}, RunRecord{}, findings, 1.0, {}), Not(HasSubstr("class='bad'")));
+  findings.contacts->touching = 1;
+  EXPECT_THAT(MakeReportHtml(RunConfig{}, RunRecord{}, findings, 1.0, {}), HasSubstr("class='bad'"));
+}
+
+TEST(ReportHtml, EveryKindOfWhatIsMissingIsExplained) {
+  Findings findings;
+  findings.remainder.emplace();
+  const std::string html = MakeReportHtml(RunConfig{}, RunRecord{}, findings, 1.0, {});
+  for (int k = 0; k < kMissingKinds; ++k) EXPECT_THAT(html, HasSubstr(std::string(ToString(static_cast<Missing>(k)))));
 }
 
 TEST(SvgPlot, ValuesOutsideTheAxesAreClamped) {

@@ -26,7 +26,7 @@ RunRecord MakeRecord() {
 }
 
 TEST(ReportJson, HoldsEveryKeyOfTheContract) {
-  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), 12.5));
+  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), {}, 12.5));
   for (const char* key :
        {"method", "object", "cell", "seed", "version", "end_reason", "n_scans", "path_length_m", "mean_selection_s",
         "completeness", "coverage", "observable_coverage", "rmse_mm", "rim_length_m", "triangles", "wall_s", "scans"}) {
@@ -39,7 +39,7 @@ TEST(ReportJson, HoldsEveryKeyOfTheContract) {
 }
 
 TEST(ReportJson, FiguresAreThoseOfTheLastScanAndSumsOfAll) {
-  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), 12.5));
+  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), {}, 12.5));
   EXPECT_EQ(json["n_scans"], 2);
   EXPECT_DOUBLE_EQ(json["path_length_m"], 1.0);
   EXPECT_DOUBLE_EQ(json["coverage"], 0.75);
@@ -48,19 +48,38 @@ TEST(ReportJson, FiguresAreThoseOfTheLastScanAndSumsOfAll) {
 }
 
 TEST(ReportJson, TheFirstPathIsNoSelection) {
-  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), 12.5));
+  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), {}, 12.5));
   EXPECT_DOUBLE_EQ(json["mean_selection_s"], 10.0);
   EXPECT_TRUE(json["scans"][0]["selection_s"].is_null());
 }
 
 TEST(ReportJson, WhatDoesNotApplyIsNull) {
-  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, RunRecord{}, 0.0));
+  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, RunRecord{}, {}, 0.0));
   for (const char* key : {"mean_selection_s", "completeness", "coverage", "observable_coverage", "rmse_mm",
                           "rim_length_m", "triangles"}) {
     EXPECT_TRUE(json[key].is_null()) << key;
   }
   EXPECT_EQ(json["end_reason"], "interrupted");
   EXPECT_TRUE(json["scans"].empty());
+}
+
+TEST(ReportJson, SaysWhatTheTruthSaysOrNull) {
+  Findings findings;
+  findings.contacts = Contacts{120, 3, -0.002};
+  findings.remainder.emplace();
+  findings.remainder->missing[static_cast<size_t>(Missing::kBase)] = 0.25;
+  findings.remainder->rim_m[static_cast<size_t>(Missing::kOccluded)] = 1.5;
+  findings.remainder->seam_m = 0.5;
+  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), findings, 12.5));
+  EXPECT_EQ(json.at("states"), 120);
+  EXPECT_EQ(json.at("contacts"), 3);
+  EXPECT_EQ(json.at("nearest_mm"), -2.0);
+  EXPECT_EQ(json.at("missing").at("base"), 0.25);
+  EXPECT_EQ(json.at("rims_m").at("occluded"), 1.5);
+  EXPECT_EQ(json.at("rims_m").at("seam"), 0.5);
+  const auto without = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), {}, 12.5));
+  for (const char* key : {"states", "contacts", "nearest_mm", "rims_m", "missing"})
+    EXPECT_TRUE(without.at(key).is_null());
 }
 
 }  // namespace
