@@ -41,15 +41,16 @@ class Run:
 
     def find_end(self):
         """(scans, reached): where the method ends by itself. By mesh completeness that is the first scan after which the mesh is complete and has stopped
-        growing; with an end rule of its own, or if that never happens, the end of the run."""
+        growing, or with which nothing was left to scan of a complete mesh; with an end rule of its own, or if that never happens, the end of the run."""
+        ended_by_itself = self.report["end_reason"] != "scan_limit"
         if self.ends_by_completeness:
             for i in range(1, len(self.scans)):
                 before, after = self.scans[i - 1], self.scans[i]
                 growth = (after["edges"] - before["edges"]) / max(before["edges"], 1)
                 if after["completeness"] >= WANTED_COMPLETENESS and growth < COMPLETE_GROWTH:
                     return i + 1, True
-            return len(self.scans), False
-        return len(self.scans), self.report["end_reason"] != "scan_limit"
+            return len(self.scans), ended_by_itself and self.scans[-1]["completeness"] >= WANTED_COMPLETENESS
+        return len(self.scans), ended_by_itself
 
 
 @dataclasses.dataclass

@@ -50,6 +50,13 @@ class Run(unittest.TestCase):
         self.assertEqual((5, True), make_run(scans).find_end())
         self.assertEqual((4, False), make_run(scans[:4]).find_end())
 
+    def test_of_a_complete_mesh_ends_when_nothing_is_left_to_scan(self):
+        scans = [make_scan(0.3, 0.99, 1000), make_scan(0.5, 0.99, 2000)]
+        self.assertEqual((2, True), make_run(scans, end_reason="no_candidates").find_end())
+        self.assertEqual((2, False), make_run(scans).find_end())
+        scans[1]["completeness"] = 0.98
+        self.assertEqual((2, False), make_run(scans, end_reason="no_candidates").find_end())
+
     def test_with_an_end_rule_of_its_own_ends_where_it_ended(self):
         scans = [make_scan(0.3, 0.99), make_scan(0.5, 0.99), make_scan(0.7, 0.99)]
         self.assertEqual((3, True), make_run(scans, ends_by_completeness=False, end_reason="no_candidates").find_end())
