@@ -11,15 +11,18 @@
 #include "common/runtime/error.h"
 #include "services/reporter/outputs.h"
 #include "services/reporter/truth.h"
+#include "sim/pose_error.h"
 
 namespace {
 
-/// The sensor's poses at all states of the robot.
+/// Where the sensor truly was at all states of the robot.
 std::vector<nbs::Pose> ReadSensorPoses(const nbs::RunConfig& config) {
   std::vector<nbs::Pose> poses_WS;
+  const nbs::PoseError error = nbs::PoseError::Make(config);
   nbs::StreamReader reader(config.folder, nbs::StreamOf<nbs::RobotState>());
   while (const auto message = reader.Next()) {
-    poses_WS.push_back(std::get<nbs::RobotState>(*message).X_WF * config.cell.X_FS);
+    const auto& state = std::get<nbs::RobotState>(*message);
+    poses_WS.push_back(error.CalcTruePose(state.X_WF, state.utime_us) * config.cell.X_FS);
   }
   return poses_WS;
 }

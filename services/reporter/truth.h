@@ -19,7 +19,7 @@ class Truth {
   ReporterNode::Evaluator MakeEvaluator() const;
 
   /// @param mesh_W    The last mesh; without triangles there is no remainder.
-  /// @param poses_WS  The sensor's, at every state of the robot.
+  /// @param poses_WS  Where the sensor truly was, at every state of the robot.
   Findings Find(const TriangleMesh& mesh_W, std::span<const Pose> poses_WS) const;
 
  private:
