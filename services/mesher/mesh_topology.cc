@@ -7,18 +7,20 @@ uint32_t MeshTopology::Insert(const Triangle& t, int32_t group) {
   for (int i = 0; i < 3; ++i) {
     if (Find(t[i], t[(i + 1) % 3]) != kNone) return kNone;
   }
-  for (int i = 0; i < 3; ++i) border_edge_count_ += Find(t[(i + 1) % 3], t[i]) == kNone ? 1 : -1;
-  uint32_t slot = static_cast<uint32_t>(triangles_.size());
+  const size_t vertices = std::max({t[0], t[1], t[2]}) + size_t{1};
+  first_.GrowTo(vertices);
+  borders_.GrowTo(vertices);
+  CountBorders(t, 1);
+  uint32_t slot = static_cast<uint32_t>(slots_.size());
   if (free_.empty()) {
-    triangles_.push_back(t);
-    links_.push_back({});
+    slots_.Append();
     changed_.push_back(false);
   } else {
     slot = free_.back();
     free_.pop_back();
-    triangles_[slot] = t;
   }
-  links_[slot].group = group;
+  slots_[slot].triangle = t;
+  slots_[slot].group = group;
   Link(slot);
   ++triangle_count_;
   MarkChanged(slot);
@@ -26,38 +28,58 @@ uint32_t MeshTopology::Insert(const Triangle& t, int32_t group) {
 }
 
 void MeshTopology::Remove(uint32_t slot) {
-  const Triangle t = triangles_[slot];
+  const Triangle t = slots_[slot].triangle;
   Unlink(slot);
-  for (int i = 0; i < 3; ++i) border_edge_count_ += Find(t[(i + 1) % 3], t[i]) == kNone ? -1 : 1;
-  triangles_[slot] = {0, 0, 0};
+  CountBorders(t, -1);
+  slots_[slot].triangle = {0, 0, 0};
   free_.push_back(slot);
   --triangle_count_;
   MarkChanged(slot);
 }
 
-void MeshTopology::Link(uint32_t slot) {
-  const Triangle& t = triangles_[slot];
-  first_.GrowTo(std::max({t[0], t[1], t[2]}) + size_t{1});
+/// The triangle, which is not in the lists, comes (1) or goes (-1): each of its edges makes a border edge where it has
+/// no triangle beside it, and takes one away where it has.
+void MeshTopology::CountBorders(const Triangle& t, int change) {
   for (int i = 0; i < 3; ++i) {
-    links_[slot].next[i] = first_[t[i]].slot;
+    const uint32_t a = t[i], b = t[(i + 1) % 3];
+    const bool beside = Find(b, a) != kNone;
+    border_edge_count_ += beside ? -change : change;
+    uint8_t& borders = borders_[beside ? a : b];
+    borders = static_cast<uint8_t>(borders + (beside ? -change : change));
+  }
+}
+
+void MeshTopology::Link(uint32_t slot) {
+  Slot& own = slots_[slot];
+  const Triangle& t = own.triangle;
+  for (int i = 0; i < 3; ++i) {
+    own.next[i] = first_[t[i]].slot;
     first_[t[i]].slot = slot;
     MarkNearBorder(t[i]);
   }
 }
 
 void MeshTopology::Unlink(uint32_t slot) {
-  const Triangle& t = triangles_[slot];
+  const Slot& own = slots_[slot];
   for (int i = 0; i < 3; ++i) {
-    uint32_t* link = &first_[t[i]].slot;
-    while (*link != slot) link = &links_[*link].next[CornerOf(*link, t[i])];
-    *link = links_[slot].next[i];
-    MarkNearBorder(t[i]);
+    const uint32_t vertex = own.triangle[i];
+    uint32_t* link = &first_[vertex].slot;
+    while (*link != slot) {
+      Slot& before = slots_[*link];
+      link = &before.next[CornerOf(before.triangle, vertex)];
+    }
+    *link = own.next[i];
+    MarkNearBorder(vertex);
   }
 }
 
 uint32_t MeshTopology::Find(uint32_t a, uint32_t b) const {
-  for (uint32_t slot : TrianglesAt(a)) {
-    if (Next(slot, a) == b) return slot;
+  uint32_t slot = a < first_.size() ? first_[a].slot : kNone;
+  while (slot != kNone) {
+    const Slot& own = slots_[slot];
+    const int corner = CornerOf(own.triangle, a);
+    if (own.triangle[corner == 2 ? 0 : corner + 1] == b) return slot;
+    slot = own.next[corner];
   }
   return kNone;
 }
@@ -69,18 +91,34 @@ size_t MeshTopology::CountTrianglesAt(uint32_t vertex) const {
 }
 
 uint32_t MeshTopology::Next(uint32_t slot, uint32_t vertex) const {
-  return triangles_[slot][(CornerOf(slot, vertex) + 1) % 3];
+  const Triangle& t = slots_[slot].triangle;
+  return t[(CornerOf(t, vertex) + 1) % 3];
 }
 
 uint32_t MeshTopology::Previous(uint32_t slot, uint32_t vertex) const {
-  return triangles_[slot][(CornerOf(slot, vertex) + 2) % 3];
+  const Triangle& t = slots_[slot].triangle;
+  return t[(CornerOf(t, vertex) + 2) % 3];
 }
 
 void MeshTopology::FindBorderSuccessors(uint32_t vertex, std::vector<uint32_t>& successors) const {
   successors.clear();
+  if (vertex >= borders_.size() || borders_[vertex] == 0) return;
+  // A triangle ends a fan if none at the vertex begins where it ends.
+  std::vector<uint32_t>& ends = successors;
+  std::array<uint32_t, 32> begins{};
+  size_t count = 0;
   for (uint32_t slot : TrianglesAt(vertex)) {
-    const uint32_t previous = Previous(slot, vertex);
-    if (Find(vertex, previous) == kNone) successors.push_back(previous);
+    const Triangle& t = slots_[slot].triangle;
+    const int corner = CornerOf(t, vertex);
+    ends.push_back(t[(corner + 2) % 3]);
+    if (count < begins.size()) begins[count] = t[(corner + 1) % 3];
+    ++count;
+  }
+  if (count > begins.size()) {
+    std::erase_if(ends, [&](uint32_t end) { return Find(vertex, end) != kNone; });
+  } else {
+    const auto last = begins.begin() + static_cast<std::ptrdiff_t>(count);
+    std::erase_if(ends, [&](uint32_t end) { return std::find(begins.begin(), last, end) != last; });
   }
 }
 

@@ -27,9 +27,10 @@ class MeshTopology {
   uint32_t Find(uint32_t a, uint32_t b) const;
 
   /// By slot; an empty slot has three equal vertices.
-  const PagedVector<Triangle>& triangles() const { return triangles_; }
-  int32_t group(uint32_t slot) const { return links_[slot].group; }
-  bool IsEmpty(uint32_t slot) const { return triangles_[slot][0] == triangles_[slot][1]; }
+  class TriangleList;
+  TriangleList triangles() const;
+  int32_t group(uint32_t slot) const { return slots_[slot].group; }
+  bool IsEmpty(uint32_t slot) const { return slots_[slot].triangle[0] == slots_[slot].triangle[1]; }
 
   /// The slots of the triangles at a vertex, one after the other: in no particular order, but the same one whenever the
   /// same triangles have come and gone. To be read while no triangle comes or goes.
@@ -40,7 +41,7 @@ class MeshTopology {
       Iterator(const MeshTopology* mesh, uint32_t vertex, uint32_t slot) : mesh_(mesh), vertex_(vertex), slot_(slot) {}
       uint32_t operator*() const { return slot_; }
       Iterator& operator++() {
-        slot_ = mesh_->links_[slot_].next[mesh_->CornerOf(slot_, vertex_)];
+        slot_ = mesh_->slots_[slot_].next[CornerOf(mesh_->slots_[slot_].triangle, vertex_)];
         return *this;
       }
       bool operator!=(const Iterator& other) const { return slot_ != other.slot_; }
@@ -84,8 +85,8 @@ class MeshTopology {
   std::vector<uint32_t> TakeChangedSlots();
 
  private:
-  /// What a triangle's slot holds besides its vertices.
-  struct Links {
+  struct Slot {
+    Triangle triangle{};
     std::array<uint32_t, 3> next{};  ///< By corner: the next slot in the list of the vertex there.
     int32_t group = 0;
   };
@@ -94,18 +95,16 @@ class MeshTopology {
     uint32_t slot = kNone;
   };
 
-  int CornerOf(uint32_t slot, uint32_t vertex) const {
-    const Triangle& t = triangles_[slot];
-    return t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
-  }
+  static int CornerOf(const Triangle& t, uint32_t vertex) { return t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2; }
   void Link(uint32_t slot);
   void Unlink(uint32_t slot);
+  void CountBorders(const Triangle& t, int change);
   void MarkChanged(uint32_t slot);
   void MarkNearBorder(uint32_t vertex);
 
-  PagedVector<Triangle> triangles_;
-  PagedVector<Links> links_;
+  PagedVector<Slot> slots_;
   PagedVector<First> first_;
+  PagedVector<uint8_t> borders_;  // Border edges that begin at each vertex.
   std::vector<bool> changed_;
   std::vector<uint32_t> changed_list_;
   std::vector<uint32_t> free_;
@@ -115,6 +114,37 @@ class MeshTopology {
   int64_t triangle_count_ = 0;
   int64_t border_edge_count_ = 0;
 };
+
+/// The triangles by slot, to be read.
+class MeshTopology::TriangleList {
+ public:
+  explicit TriangleList(const MeshTopology* mesh) : mesh_(mesh) {}
+  size_t size() const { return mesh_->slots_.size(); }
+  bool empty() const { return size() == 0; }
+  const Triangle& operator[](size_t slot) const { return mesh_->slots_[slot].triangle; }
+
+  class Iterator {
+   public:
+    Iterator(const MeshTopology* mesh, size_t slot) : mesh_(mesh), slot_(slot) {}
+    const Triangle& operator*() const { return mesh_->slots_[slot_].triangle; }
+    Iterator& operator++() {
+      ++slot_;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return slot_ != other.slot_; }
+
+   private:
+    const MeshTopology* mesh_;
+    size_t slot_;
+  };
+  Iterator begin() const { return {mesh_, 0}; }
+  Iterator end() const { return {mesh_, size()}; }
+
+ private:
+  const MeshTopology* mesh_;
+};
+
+inline MeshTopology::TriangleList MeshTopology::triangles() const { return TriangleList(this); }
 
 template <typename Visit>
 void MeshTopology::ForEachBorderEdge(Visit&& visit) {
