@@ -26,8 +26,10 @@ def add_summary(page, experiments):
     page.text("Runs of real service sets on simulated scans (Kriegel et al., Next-Best-Scan Planning for Autonomous 3D Modeling, IROS 2012, section IV-B). The paper's putto is not public: figures "
               "of other objects stand beside its figures for orientation. ± is the standard deviation over the seeds.")
     page.code(settings.get("command", "scripts/experiments"))
-    page.table(["setting", "value"], [[key, value] for key, value in settings.items() if key != "command"]
-               + [["versions", ", ".join(sorted({run.report["version"] for run in experiments.runs})) or tables.NONE]])
+    versions = sorted({run.report["version"] for run in experiments.runs})
+    page.table(["setting", "value"], [[key, value] for key, value in settings.items() if key != "command"] + [["versions", ", ".join(versions) or tables.NONE]])
+    if len(versions) > 1:
+        page.text("Runs of several versions of the software stand side by side here: figures that are to be compared want a folder of their own.")
     if experiments.failures:
         page.heading("Runs that failed")
         page.table(["object", "method", "seed", "reason"], [[f.object, f.method, f.seed, f.reason] for f in experiments.failures])

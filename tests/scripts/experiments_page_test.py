@@ -145,6 +145,12 @@ class Page(unittest.TestCase):
         self.assertIn("| putto | BH/IG | 2 | out of \\| luck |", page)
         self.assertEqual([1], [run.seed for run in runs.read_experiments(self.folder).runs])
 
+    def test_says_when_runs_of_several_versions_are_mixed(self):
+        self.add_run("putto", "BH-IG", 1, make_report([make_scan(0.3), make_scan(0.9)]))
+        self.assertNotIn("several versions", self.make_page())
+        self.add_run("putto", "BH-IG", 2, dict(make_report([make_scan(0.3), make_scan(0.9)]), version="2"))
+        self.assertIn("several versions", self.make_page())
+
     def test_of_no_runs_is_made(self):
         (self.folder / "runs").mkdir()
         self.assertTrue(self.make_page().startswith("# Experiments\n"))
