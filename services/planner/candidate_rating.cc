@@ -23,7 +23,8 @@ std::vector<double> CandidateRating::EstimateGains(std::span<const ScanPath> pat
 
 double CandidateRating::CalcGain(const ScanPath& path) const {
   if (!context_.by_gain) return 0.0;
-  return is_surface() ? view_.CalcGain(prediction_, path, voxel_m_) : ToNats(gain_.Calc(*map_, path, kAllBeams));
+  return is_surface() ? view_.CalcGain(prediction_, path, voxel_m_)
+                      : ToNats(gain_.Calc(*map_, path, kAllBeams, context_.threads));
 }
 
 double CandidateRating::CalcScore(const Candidate& candidate, double gain_nat, const Pose& X_WS_now) const {

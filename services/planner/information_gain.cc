@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -17,6 +18,20 @@ int CalcFirst(int count, int step) { return std::min(step / 2, count - 1); }
 
 /// sum * all / sampled without overflow, rounded down.
 int64_t Scale(int64_t sum, int64_t all, int64_t sampled) { return sum / sampled * all + sum % sampled * all / sampled; }
+
+void Check(GainSampling sampling, int threads) {
+  if (sampling.stripe_step < 1 || sampling.beam_step < 1)
+    throw std::invalid_argument("InformationGain: a sampling step below 1");
+  if (threads < 1) throw std::invalid_argument("InformationGain: " + std::to_string(threads) + " threads");
+}
+
+/// Calls work(0) ... work(threads - 1), each on a thread of its own; this thread is one of them.
+template <typename Work>
+void RunOver(int threads, const Work& work) {
+  std::vector<std::jthread> helpers;
+  for (int thread = 1; thread < threads; ++thread) helpers.emplace_back(work, thread);
+  work(0);
+}
 
 }  // namespace
 
@@ -45,42 +60,44 @@ int64_t InformationGain::CalcStripe(const GainMap& map, const Pose& X_WS, int be
   return workspace.rays.Sum(map.values().data()) * map.unit();
 }
 
-int64_t InformationGain::Calc(const GainMap& map, const ScanPath& path, GainSampling sampling) const {
-  Workspace workspace = MakeWorkspace(map);
-  return CalcPath(map, path, sampling, workspace);
+int64_t InformationGain::Calc(const GainMap& map, const ScanPath& path, GainSampling sampling, int threads) const {
+  Check(sampling, threads);
+  std::vector<int64_t> sums(threads, 0);
+  RunOver(threads, [&](int thread) {
+    Workspace workspace = MakeWorkspace(map);
+    sums[thread] = SumPart(map, path, sampling, threads, thread, workspace);
+  });
+  return ScaleUp(std::reduce(sums.begin(), sums.end()), path, sampling);
 }
 
-int64_t InformationGain::CalcPath(const GainMap& map, const ScanPath& path, GainSampling sampling,
-                                  Workspace& workspace) const {
-  if (sampling.stripe_step < 1 || sampling.beam_step < 1)
-    throw std::invalid_argument("InformationGain: a sampling step below 1");
+int64_t InformationGain::SumPart(const GainMap& map, const ScanPath& path, GainSampling sampling, int threads,
+                                 int thread, Workspace& workspace) const {
   const int stripes = CountStripes(path);
-  const int beams = static_cast<int>(beams_S_.size());
-  const int first = CalcFirst(stripes, sampling.stripe_step);
   int64_t sum = 0;
-  for (int i = first; i < stripes; i += sampling.stripe_step) {
+  for (int i = CalcFirst(stripes, sampling.stripe_step) + thread * sampling.stripe_step; i < stripes;
+       i += threads * sampling.stripe_step) {
     sum += CalcStripe(map, CalcStripePose(path, stripe_spacing_m_, i), sampling.beam_step, workspace);
   }
-  const int64_t sampled = CountSampled(stripes, sampling.stripe_step, first) *
+  return sum;
+}
+
+int64_t InformationGain::ScaleUp(int64_t sum, const ScanPath& path, GainSampling sampling) const {
+  const int stripes = CountStripes(path), beams = static_cast<int>(beams_S_.size());
+  const int64_t sampled = CountSampled(stripes, sampling.stripe_step, CalcFirst(stripes, sampling.stripe_step)) *
                           CountSampled(beams, sampling.beam_step, CalcFirst(beams, sampling.beam_step));
   return Scale(sum, static_cast<int64_t>(stripes) * beams, sampled);
 }
 
 std::vector<int64_t> InformationGain::CalcAll(const GainMap& map, std::span<const ScanPath> paths,
                                               GainSampling sampling, int threads) const {
-  if (threads < 1) throw std::invalid_argument("InformationGain: " + std::to_string(threads) + " threads");
-  if (sampling.stripe_step < 1 || sampling.beam_step < 1)
-    throw std::invalid_argument("InformationGain: a sampling step below 1");
+  Check(sampling, threads);
   std::vector<int64_t> gains(paths.size(), 0);
   // Each thread takes every threads-th path and writes to entries of its own.
-  const auto work = [&](size_t first) {
+  RunOver(threads, [&](int thread) {
     Workspace workspace = MakeWorkspace(map);
-    for (size_t i = first; i < paths.size(); i += threads) gains[i] = CalcPath(map, paths[i], sampling, workspace);
-  };
-  std::vector<std::jthread> helpers;
-  for (int i = 1; i < threads; ++i) helpers.emplace_back(work, i);
-  work(0);
-  helpers.clear();
+    for (size_t i = thread; i < paths.size(); i += threads)
+      gains[i] = ScaleUp(SumPart(map, paths[i], sampling, 1, 0, workspace), paths[i], sampling);
+  });
   return gains;
 }
 

@@ -42,10 +42,10 @@ class InformationGain {
   /// Beams of all those stripes.
   int64_t CountBeams(const ScanPath& path) const;
 
-  /// Gain of a path.
+  /// Gain of a path, its stripes shared out among `threads` threads (>= 1).
   ///
-  /// @throws std::invalid_argument if a step of the sampling is not positive.
-  int64_t Calc(const GainMap& map, const ScanPath& path, GainSampling sampling) const;
+  /// @throws std::invalid_argument if a step of the sampling or the number of threads is not positive.
+  int64_t Calc(const GainMap& map, const ScanPath& path, GainSampling sampling, int threads = 1) const;
 
   /// The same of each path, evaluated by `threads` threads (>= 1); equal to Calc one by one.
   std::vector<int64_t> CalcAll(const GainMap& map, std::span<const ScanPath> paths, GainSampling sampling,
@@ -62,7 +62,11 @@ class InformationGain {
     std::vector<Eigen::Vector3d> ends_W;
   };
   Workspace MakeWorkspace(const GainMap& map) const { return {RayBundle(map.shape(), lanes_), {}}; }
-  int64_t CalcPath(const GainMap& map, const ScanPath& path, GainSampling sampling, Workspace& workspace) const;
+  /// The part of a path that comes to one of `threads` threads: the sum over its sampled beams.
+  int64_t SumPart(const GainMap& map, const ScanPath& path, GainSampling sampling, int threads, int thread,
+                  Workspace& workspace) const;
+  /// The gain of a path from the sum over its sampled beams.
+  int64_t ScaleUp(int64_t sum, const ScanPath& path, GainSampling sampling) const;
   int64_t CalcStripe(const GainMap& map, const Pose& X_WS, int beam_step, Workspace& workspace) const;
 
   double stripe_spacing_m_ = 0.0;

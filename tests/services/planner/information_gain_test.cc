@@ -212,7 +212,9 @@ TEST(InformationGain, DoesNotDependOnTheNumberOfThreads) {
   const VoxelGrid grid = MakeMixedBox(4);
   const std::vector<int64_t> one = gain.CalcAll(GainMap(grid), paths, kSixteenth, 1);
   for (const int threads : {2, 3, 20}) EXPECT_EQ(gain.CalcAll(GainMap(grid), paths, kSixteenth, threads), one);
-  for (size_t i = 0; i < paths.size(); ++i) EXPECT_EQ(gain.Calc(GainMap(grid), paths[i], kSixteenth), one[i]);
+  for (size_t i = 0; i < paths.size(); ++i) {
+    for (const int threads : {1, 2, 3, 20}) EXPECT_EQ(gain.Calc(GainMap(grid), paths[i], kSixteenth, threads), one[i]);
+  }
 }
 
 TEST(InformationGain, OfASixteenthOfTheBeamsIsNearThatOfAll) {
@@ -257,12 +259,36 @@ TEST(InformationGain, OfAStandingSensorIsThatOfOneStripe) {
   EXPECT_GT(gain.Calc(GainMap(MakeUnknownBox()), path, kSixteenth), 0);
 }
 
+TEST(InformationGain, FromInsideOfAnOccupiedCellIsZero) {
+  const InformationGain gain{Profiler{}};
+  VoxelGrid grid = MakeUnknownBox();
+  ScanPath path = MakePath(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), 0.0);
+  path.X_WS_start.translation() = path.X_WS_end.translation() = Eigen::Vector3d(0.0011, 0.0011, 0.0011);
+  EXPECT_GT(gain.Calc(GainMap(grid), path, kAllBeams), 0);
+  grid.cells()[FindCell(grid.shape(), path.X_WS_start.translation())] = 5000;
+  EXPECT_EQ(gain.Calc(GainMap(grid), path, kAllBeams), 0);
+}
+
+TEST(InformationGain, IsTheSameWithEveryInstructionSet) {
+  std::mt19937_64 engine(9);
+  const GainMap map(MakeMixedBox(10));
+  for (int i = 0; i < 5; ++i) {
+    const ScanPath path = MakeRandomPath(engine);
+    const int64_t portable = InformationGain(Profiler(), LaneSet::kSse42).Calc(map, path, kAllBeams);
+    for (const LaneSet lanes : kLaneSets) {
+      if (!IsSupported(lanes)) continue;
+      EXPECT_EQ(InformationGain(Profiler(), lanes).Calc(map, path, kAllBeams), portable) << ToString(lanes);
+    }
+  }
+}
+
 TEST(InformationGain, RefusesStepsAndThreadsBelowOne) {
   const InformationGain gain{Profiler{}};
   const VoxelGrid grid = MakeUnknownBox();
   const ScanPath path = MakePath(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), 0.0);
   EXPECT_THROW((void)gain.Calc(GainMap(grid), path, {0, 1}), std::invalid_argument);
   EXPECT_THROW((void)gain.Calc(GainMap(grid), path, {1, -1}), std::invalid_argument);
+  EXPECT_THROW((void)gain.Calc(GainMap(grid), path, kAllBeams, 0), std::invalid_argument);
   EXPECT_THROW((void)gain.CalcPerStripe(GainMap(grid), path, 0), std::invalid_argument);
   EXPECT_THROW((void)gain.CalcAll(GainMap(grid), std::vector{path}, {0, 1}, 2), std::invalid_argument);
   EXPECT_THROW((void)gain.CalcAll(GainMap(grid), std::vector{path}, kAllBeams, 0), std::invalid_argument);

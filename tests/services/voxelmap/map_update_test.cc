@@ -218,6 +218,52 @@ TEST(MapUpdate, TheDeltasCarryAReplica) {
   EXPECT_EQ(replica, map.grid());
 }
 
+TEST(MapUpdate, IsTheSameWithEveryInstructionSet) {
+  const Profiler profiler;
+  const auto run = [&](LaneSet lanes) {
+    MapUpdate map(MakeShape(), profiler, {}, lanes);
+    for (int i = -20; i <= 20; ++i) {
+      const Eigen::Vector3d p_WS(0.0, -0.3, 0.002 * i), view_W(0.1, 1.0, 0.3), n_W(0.3, 1.0, 0.2);
+      map.Insert(MakeStripe(profiler, p_WS, view_W, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero(), n_W));
+    }
+    return map.grid();
+  };
+  const VoxelGrid portable = run(LaneSet::kSse42);
+  EXPECT_GT(std::ranges::count_if(portable.cells(), IsOccupied), 100);
+  for (const LaneSet lanes : kLaneSets) {
+    if (!IsSupported(lanes)) continue;
+    EXPECT_EQ(run(lanes), portable) << ToString(lanes);
+  }
+}
+
+TEST(MapUpdate, BeamsThatStayOutsideOfTheGridChangeNothing) {
+  const Profiler profiler;
+  MapUpdate map(MakeShape(), profiler);
+  map.Insert(MakeStripe(profiler, {0.0, 0.5, 0.0025}, Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(),
+                        {0.0, 0.8, 0.0}, Eigen::Vector3d::UnitY()));
+  EXPECT_EQ(map.grid(), VoxelGrid(MakeShape()));
+  EXPECT_TRUE(map.TakeDelta().values.empty());
+}
+
+TEST(MapUpdate, BeamsFromInsideOfAnOccupiedCellStillCountAsPasses) {
+  const Profiler profiler;
+  MapUpdate map(MakeShape(), profiler);
+  // Something stood where the emitter is now: two scans later it does not.
+  Stripe before = MakeWallStripe(profiler, 0.0025);
+  for (float& range : before.ranges_m) range -= 0.14F;
+  map.Insert(before);
+  ASSERT_TRUE(IsOccupied(map.grid().At(30, 2, 30)));
+  for (int scan = 1; scan <= 2; ++scan) {
+    for (int i = 0; i < 3; ++i) {
+      Stripe stripe = MakeStripe(profiler, {0.0, -0.1375, 0.0025}, Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(),
+                                 {0.0, 0.1, 0.0}, Eigen::Vector3d::UnitY());
+      stripe.scan = scan;
+      map.Insert(stripe);
+    }
+  }
+  EXPECT_FALSE(IsOccupied(map.grid().At(30, 2, 30)));
+}
+
 TEST(MapUpdate, AHitBehindTheGridFreesTheGrid) {
   const Profiler profiler;
   MapUpdate map(MakeShape(), profiler);
