@@ -27,31 +27,40 @@ uint16_t CalcSquare(int k) {
   return static_cast<uint16_t>(twice * twice);
 }
 
+/// A cell is an obstacle if its log-odds, moved by `offset` modulo 2^16, is above `limit`: so one comparison tells, and
+/// the highest of several cells tells for all of them.
 struct ObstacleRule {
-  bool unknown = false;
-  int16_t free_log_odds = 0;
+  uint16_t offset = 0;
+  uint16_t limit = 0;
 
-  bool operator()(int16_t log_odds) const {
-    return unknown ? log_odds > free_log_odds || log_odds == kUnobserved : IsOccupied(log_odds);
-  }
+  uint16_t Rank(int16_t log_odds) const { return static_cast<uint16_t>(log_odds + offset); }
 };
 
+ObstacleRule MakeRule(Obstacles obstacles, int16_t free_log_odds) {
+  // Never observed ranks lowest in the first case, highest in the second.
+  if (obstacles == Obstacles::kOccupied) return {32768, static_cast<uint16_t>(kOccupiedLogOdds - 1 + 32768)};
+  return {32767, static_cast<uint16_t>(free_log_odds + 32767)};
+}
+
 /// Marks the blocks of one row that hold an obstacle; true if any does.
+///
+/// @param ranks  Room for a row of cells.
 bool MarkObstacles(const VoxelGrid& grid, const ObstacleRule& rule, int block, int by, int bz,
-                   std::vector<uint8_t>& marks) {
+                   std::vector<uint16_t>& ranks, std::vector<uint8_t>& marks) {
   const Eigen::Vector3i& size = grid.shape().size;
-  std::fill(marks.begin(), marks.end(), uint8_t{0});
-  bool any = false;
+  std::ranges::fill(ranks, uint16_t{0});
   for (int z = bz * block; z < std::min(size.z(), (bz + 1) * block); ++z) {
     for (int y = by * block; y < std::min(size.y(), (by + 1) * block); ++y) {
       const int16_t* cells = grid.cells().data() + grid.shape().Index(0, y, z);
-      for (int bx = 0, x = 0; x < size.x(); ++bx) {
-        uint8_t mark = 0;
-        for (const int end = std::min(size.x(), x + block); x < end; ++x) mark |= rule(cells[x]) ? 1 : 0;
-        marks[bx] |= mark;
-        any |= mark != 0;
-      }
+      for (int x = 0; x < size.x(); ++x) ranks[x] = std::max(ranks[x], rule.Rank(cells[x]));
     }
+  }
+  bool any = false;
+  for (int bx = 0, x = 0; x < size.x(); ++bx) {
+    uint16_t highest = 0;
+    for (const int end = std::min(size.x(), x + block); x < end; ++x) highest = std::max(highest, ranks[x]);
+    marks[bx] = highest > rule.limit ? 1 : 0;
+    any |= highest > rule.limit;
   }
   return any;
 }
@@ -82,22 +91,41 @@ bool IsFar(const uint16_t* row, int width) {
 Field TransformX(const VoxelGrid& grid, const ObstacleRule& rule, int block, const Eigen::Vector3i& blocks, int reach) {
   Field field({blocks.x() + 2 * reach, blocks.y(), blocks.z()});
   std::vector<uint8_t> marks(blocks.x());
+  std::vector<uint16_t> ranks(grid.shape().size.x());
   for (int z = 0; z < blocks.z(); ++z) {
     for (int y = 0; y < blocks.y(); ++y) {
-      if (MarkObstacles(grid, rule, block, y, z, marks)) TransformRow(marks, reach, field.Row(y, z));
+      if (MarkObstacles(grid, rule, block, y, z, ranks, marks)) TransformRow(marks, reach, field.Row(y, z));
     }
   }
   return field;
 }
 
+/// True if no square of a row is below that of another; then the other reaches everything on its side at least as well.
+bool IsCovered(const uint16_t* row, const uint16_t* other, int width) {
+  uint16_t lower = 0;
+  for (int x = 0; x < width; ++x) lower |= row[x] < other[x] ? 1 : 0;
+  return lower == 0;
+}
+
+/// Lowers the rows within reach of the i-th of `count` rows, which begin `in_step` apart; row i of `out`, rows
+/// `out_step` apart and padded by `reach`, lies at its place. Only the border of a solid body reaches out: of two
+/// neighbours where one covers the other, the covered one stays on its side.
+void Spread(const uint16_t* in, int i, int count, size_t in_step, int width, int reach, uint16_t* out,
+            size_t out_step) {
+  const uint16_t* row = in + i * in_step;
+  if (IsFar(row, width)) return;
+  const int first = i > 0 && IsCovered(row, row - in_step, width) ? 0 : -reach;
+  const int last = i + 1 < count && IsCovered(row, row + in_step, width) ? 0 : reach;
+  for (int k = first; k <= last; ++k) Lower(row, CalcSquare(k), width, out + (reach + i + k) * out_step);
+}
+
 /// Adds the distances along y and pads there.
 Field TransformY(const Field& in, int reach) {
   Field out({in.size.x(), in.size.y() + 2 * reach, in.size.z()});
+  const auto step = static_cast<size_t>(in.size.x());
   for (int z = 0; z < in.size.z(); ++z) {
-    for (int y = 0; y < in.size.y(); ++y) {
-      if (IsFar(in.Row(y, z), in.size.x())) continue;
-      for (int k = -reach; k <= reach; ++k) Lower(in.Row(y, z), CalcSquare(k), in.size.x(), out.Row(y + reach + k, z));
-    }
+    for (int y = 0; y < in.size.y(); ++y)
+      Spread(in.Row(0, z), y, in.size.y(), step, in.size.x(), reach, out.Row(0, z), step);
   }
   return out;
 }
@@ -105,11 +133,10 @@ Field TransformY(const Field& in, int reach) {
 /// Adds the distances along z and pads there.
 Field TransformZ(const Field& in, int reach) {
   Field out({in.size.x(), in.size.y(), in.size.z() + 2 * reach});
+  const size_t step = static_cast<size_t>(in.size.x()) * in.size.y();
   for (int y = 0; y < in.size.y(); ++y) {
-    for (int z = 0; z < in.size.z(); ++z) {
-      if (IsFar(in.Row(y, z), in.size.x())) continue;
-      for (int k = -reach; k <= reach; ++k) Lower(in.Row(y, z), CalcSquare(k), in.size.x(), out.Row(y, z + reach + k));
-    }
+    for (int z = 0; z < in.size.z(); ++z)
+      Spread(in.Row(y, 0), z, in.size.z(), step, in.size.x(), reach, out.Row(y, 0), step);
   }
   return out;
 }
@@ -137,7 +164,7 @@ DistanceField::DistanceField(const VoxelGrid& grid, Obstacles obstacles, const D
   const Eigen::Vector3i blocks = (grid.shape().size.array() + (block - 1)) / block;
   origin_W_ = grid.shape().origin_W.array() - (reach - 0.5) * block_m_;
   size_ = blocks.array() + 2 * reach;
-  const ObstacleRule rule{obstacles == Obstacles::kOccupiedOrUnknown, CalcLogOdds(settings.free_max_probability)};
+  const ObstacleRule rule = MakeRule(obstacles, CalcLogOdds(settings.free_max_probability));
   squares_ = TransformZ(TransformY(TransformX(grid, rule, block, blocks, reach), reach), reach).squares;
   const uint16_t out_of_reach = CalcSquare(reach + 1);
   for (uint16_t& square : squares_) square = std::min(square, out_of_reach);

@@ -67,6 +67,32 @@ TEST(DistanceField, IsNeverLargerThanTheTrueDistanceAndLittleBelowIt) {
   }
 }
 
+TEST(DistanceField, OfSolidBodiesIsExactToTheBlock) {
+  VoxelGrid grid = MakeFreeGrid(21, 18, 25);
+  const GridShape& shape = grid.shape();
+  for (int z = 0; z < 25; ++z) {
+    for (int y = 0; y < 18; ++y) {
+      for (int x = 0; x < 21; ++x) {
+        const bool box = x >= 3 && x < 11 && y >= 5 && y < 14 && z >= 2 && z < 15 && !(y == 9 && z > 8);
+        const bool ball = (Eigen::Vector3d(x, y, z) - Eigen::Vector3d(15, 9, 19)).norm() < 5.0;
+        if (box || ball) grid.cells()[shape.Index(x, y, z)] = ball ? kOccupied : kUnobserved;
+      }
+    }
+  }
+  DistanceFieldSettings settings;
+  settings.cells_per_block = 1;
+  settings.max_distance_m = 0.12;
+  const DistanceField field(grid, Obstacles::kOccupiedOrUnknown, settings);
+  std::mt19937_64 engine(9);
+  for (int i = 0; i < 1500; ++i) {
+    // At a block's centre nothing is interpolated, and the field's distance is that from centre to surface.
+    Eigen::Vector3d p_W = MakePointAround(grid, 0.1, engine);
+    p_W = ((p_W / kResolution).array().floor() + 0.5) * kResolution;
+    const double expected = std::min(0.12, CalcTrueDistance(grid, p_W, [](int16_t l) { return l != kFree; }));
+    EXPECT_NEAR(field.CalcDistance(p_W), expected, 1e-6);
+  }
+}
+
 TEST(DistanceField, OfAFreeGridIsTheCutOffEverywhere) {
   const DistanceField field(MakeFreeGrid(20, 20, 20), Obstacles::kOccupiedOrUnknown);
   std::mt19937_64 engine(8);
