@@ -16,9 +16,10 @@
 namespace nbs {
 
 struct PlannerSettings {
-  /// A candidate that promises less is not worth a motion: about thirty voxels that were never observed …
-  double min_gain_nat = 20.0;
-  double min_hole_gain_nat = 4.0;  ///< … or six, where only holes are left.
+  /// A candidate that promises less is not worth a motion. Borders count little beside predicted surface (their strips
+  /// have max_rim_share of it): 3 nat are a surface of 1 cm², or the borders of some gaps of 30 mm …
+  double min_gain_nat = 3.0;
+  double min_hole_gain_nat = 0.3;  ///< … and a tenth of that where only holes are left.
   double gain_reach_m = 0.025;     ///< For GainRule::kNearSurface.
   int threads = 2;
 };

@@ -66,8 +66,8 @@ void VisitBeams(const Profiler& profiler, const ScanPath& path, Visit&& visit) {
 void CheckSettings(const SurfacePredictionSettings& s) {
   const bool sound = s.cells_per_block >= 1 && s.depth_m > 0.0 && s.free_max_probability > 0.0 &&
                      s.free_max_probability < 0.95 && s.iterations >= 1 && s.relaxation > 0.0 && s.relaxation < 2.0 &&
-                     s.look_weight >= 0.0 && s.max_looks >= 0 && s.rim_width_m > 0.0 && s.missed_factor >= 0.0 &&
-                     s.missed_factor <= 1.0;
+                     s.look_weight >= 0.0 && s.max_looks >= 0 && s.rim_width_m > 0.0 && s.max_rim_share > 0.0 &&
+                     s.missed_factor >= 0.0 && s.missed_factor <= 1.0;
   if (!sound) throw std::invalid_argument("SurfacePrediction: a setting is out of range");
 }
 
@@ -218,6 +218,8 @@ void SurfacePrediction::FindElements() {
 
 void SurfacePrediction::AddRim(const MeshReplica& mesh) {
   const auto width_m = static_cast<float>(settings_.rim_width_m);
+  const size_t first = elements_.size();
+  std::vector<float> strip_m2(shape_.cells(), 0.0f);
   for (const BorderEdge& edge : FindBorderEdges(mesh.triangles())) {
     const auto& corners = mesh.triangles()[edge.triangle];
     const auto corner_W = [&](int i) -> const Eigen::Vector3f& { return mesh.vertices()[corners.at(i)].p_W; };
@@ -227,7 +229,14 @@ void SurfacePrediction::AddRim(const MeshReplica& mesh) {
     const Eigen::Vector3f p_W = mesh.vertices()[edge.from].p_W + 0.5f * along_W + 0.5f * width_m * outward_W;
     const int64_t block = FindCell(shape_, p_W.cast<double>());
     if (block < 0) continue;
-    elements_.push_back({p_W, normal_W, along_W.norm() * width_m * Discount(block), static_cast<uint32_t>(block)});
+    elements_.push_back({p_W, normal_W, along_W.norm() * width_m, static_cast<uint32_t>(block)});
+    strip_m2[block] += elements_.back().area_m2;
+  }
+  // A jagged border is no more surface than a straight one.
+  const auto most_m2 = static_cast<float>(settings_.max_rim_share * shape_.resolution_m * shape_.resolution_m);
+  for (size_t i = first; i < elements_.size(); ++i) {
+    SurfaceElement& element = elements_[i];
+    element.area_m2 *= Discount(element.block) * std::min(1.0f, most_m2 / strip_m2[element.block]);
   }
 }
 

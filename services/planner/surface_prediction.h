@@ -26,10 +26,11 @@ struct SurfacePredictionSettings {
   double free_max_probability = 0.3;  ///< A voxel is known to be free up to this p.
   int iterations = 80;                ///< Sweeps of the relaxation a round; the next round goes on where it ended.
   double relaxation = 1.85;           ///< Over-relaxation, in (0, 2).
-  double look_weight = 1.0;    ///< Pull to free of a scan that looked through a block in vain; each neighbour has 1.
-  int max_looks = 5;           ///< More scans than this pull no harder.
-  double rim_width_m = 0.012;  ///< Of the strip of elements along the border of the mesh.
-  double missed_factor = 0.1;  ///< What is left of an element's area when a scan should have seen it and did not.
+  double look_weight = 1.0;     ///< Pull to free of a scan that looked through a block in vain; each neighbour has 1.
+  int max_looks = 5;            ///< More scans than this pull no harder.
+  double rim_width_m = 0.008;   ///< Of the strip of elements along the border of the mesh.
+  double max_rim_share = 0.05;  ///< Elements of the strip in one block come to at most this share of a block's face.
+  double missed_factor = 0.1;   ///< What is left of an element's area when a scan should have seen it and did not.
 };
 
 /// The unseen surface, foretold from what is known: a potential that is 1 behind every measured point, -1 in known free
