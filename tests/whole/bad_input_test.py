@@ -76,6 +76,12 @@ class BadInput(WholeRunTest):
     def test_unknown_method_is_refused(self):
         self.assert_refused("--object", self.blob, "--method", "BHIG", says=["BHIG", "BH/IG"])
 
+    def test_unknown_gain_rule_is_refused(self):
+        self.assert_refused("--object", self.blob, "--gain", "sun", says=["sun", "sum"])
+
+    def test_gain_rule_of_a_method_without_gain_is_refused(self):
+        self.assert_refused("--object", self.blob, "--method", "B", "--gain", "sum", says=["B", "--gain"])
+
     def test_unknown_cell_is_refused(self):
         self.assert_refused("--object", self.blob, "--cell", "fre", says=["fre", "free"])
 
