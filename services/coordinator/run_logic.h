@@ -20,7 +20,7 @@ struct RunSettings {
   CandidateSearch search = CandidateSearch::kBoundaryAndHole;
   EndRule end = EndRule::kCompleteness;
   /// kUnknownSettled: a scan that leaves more than 1 - this of the unknown voxels unknown was the last.
-  double settled_unknown = 0.005;
+  double settled_unknown = 0.05;
   // The mesh completeness "hardly changed" (section III) when this many boundary scans in a row each closed less than
   // `settled_closing` of what was missing, 1 - completeness, and added less than `settled_growth` to the edges of the
   // mesh.

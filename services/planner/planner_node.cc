@@ -115,16 +115,19 @@ double PlannerNode::FindMinGain(PlanMode mode) const {
 ScanSelection::Result PlannerNode::Select(const PlanRequest& request, PlanTiming& timing) {
   const double update_start_s = clock_();
   FoldNewestScan();
-  const MapClearance clearance(voxels_);
-  const NothingSolid nothing;
+  std::unique_ptr<const Clearance> clearance;
+  if (method_.collision_test) {
+    clearance = std::make_unique<MapClearance>(voxels_);
+  } else {
+    clearance = std::make_unique<NothingSolid>();
+  }
   const CandidateRating rating(rating_, voxels_, prediction_);
   timing.update_s = clock_() - update_start_s;
   {
     Stopwatch watch(clock_, timing.candidates_s);
     searcher_.Update(request.mode, {mesh_, voxels_, prediction_, newest_scan_, newest_path_}, selection_);
   }
-  const Clearance& used = method_.collision_test ? static_cast<const Clearance&>(clearance) : nothing;
-  return selection_.Select(MakeTools(request, used, rating, timing), FindMinGain(request.mode));
+  return selection_.Select(MakeTools(request, *clearance, rating, timing), FindMinGain(request.mode));
 }
 
 SelectionTools PlannerNode::MakeTools(const PlanRequest& request, const Clearance& clearance,

@@ -193,10 +193,10 @@ TEST(RunLogic, UnknownVoxelsThatHardlyChangeEndAMethodThatCountsThem) {
   RunLogicState state = MakeState(Awaiting::kPlan, 4, PlanMode::kSphere);
   state.unknown_cells = 100'000;
   Plan plan = MakePlan(4, PlanMode::kSphere, true);
-  plan.unknown_cells = 99'000;
+  plan.unknown_cells = 94'000;
   EXPECT_EQ(Advance(settings, state, plan).state.awaiting, Awaiting::kExecution);
-  EXPECT_EQ(Advance(settings, state, plan).state.unknown_cells, 99'000);
-  plan.unknown_cells = 99'600;
+  EXPECT_EQ(Advance(settings, state, plan).state.unknown_cells, 94'000);
+  plan.unknown_cells = 95'100;
   EXPECT_EQ(Find<RunState>(Advance(settings, state, plan)).end_reason, "unknown_settled");
   settings.end = EndRule::kCompleteness;
   EXPECT_EQ(Advance(settings, state, plan).state.awaiting, Awaiting::kExecution);
