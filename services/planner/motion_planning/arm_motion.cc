@@ -36,6 +36,7 @@ ArmTimingLimits MakeArmLimits(const CellConfig& cell, const ArmModel& model) {
   for (const ArmJoint& joint : model.joints) limits.rad_per_s.push_back(joint.max_rad_per_s);
   limits.rad_per_s2 = cell.arm->max_rad_per_s2;
   limits.flange = MakeLimits(cell);
+  limits.X_FS = cell.X_FS;
   return limits;
 }
 

@@ -36,22 +36,42 @@ int RankOf(Verdict verdict) {
   }
 }
 
-/// The stretch of a chain along which the arm is free between its states as well; empty if shorter than wanted.
-JointChain KeepFree(const ArmSetup& arm, const Clearance& clearance, const JointChain& chain, int wanted) {
-  JointChain best;
+/// A stretch of a chain: numbers of its first and its last state.
+struct Stretch {
+  size_t first = 0;
+  size_t last = 0;
+};
+
+/// The longest stretch of a chain along which the arm is free between its states as well.
+Stretch FindFreeStretch(const ArmSetup& arm, const Clearance& clearance, const JointChain& chain) {
+  Stretch best;
   size_t first = 0;
   for (size_t k = 1; k <= chain.q.size(); ++k) {
-    const bool joined = k < chain.q.size() && arm.collision.IsFreeMotion(clearance, chain.q[k - 1], chain.q[k]);
-    if (joined) continue;
-    if (k - first > best.q.size()) {
-      best.begin = chain.begin + static_cast<int>(first);
-      best.q.assign(chain.q.begin() + static_cast<std::ptrdiff_t>(first),
-                    chain.q.begin() + static_cast<std::ptrdiff_t>(k));
-    }
+    if (k < chain.q.size() && arm.collision.IsFreeMotion(clearance, chain.q[k - 1], chain.q[k])) continue;
+    if (k - 1 - first > best.last - best.first) best = {first, k - 1};
     first = k;
   }
-  if (static_cast<int>(best.q.size()) < wanted) best.q.clear();
   return best;
+}
+
+/// True if two chains over the same poses differ by whole turns of joints alone: the arm is in the same places.
+bool AreTurned(const JointChain& a, const JointChain& b) {
+  constexpr double kSame_rad = 1e-6;
+  const auto off = [](double d) { return std::abs(std::remainder(d, 2.0 * std::numbers::pi)); };
+  return a.begin == b.begin && (a.q.front() - b.q.front()).unaryExpr(off).maxCoeff() < kSame_rad &&
+         (a.q.back() - b.q.back()).unaryExpr(off).maxCoeff() < kSame_rad;
+}
+
+/// The longest free stretch of each chain, looked for once for chains that differ by whole turns.
+std::vector<Stretch> FindFreeStretches(const ArmSetup& arm, const Clearance& clearance,
+                                       const std::vector<JointChain>& chains) {
+  std::vector<Stretch> stretches;
+  for (size_t k = 0; k < chains.size(); ++k) {
+    size_t same = 0;
+    while (same < k && !AreTurned(chains[same], chains[k])) ++same;
+    stretches.push_back(same < k ? stretches[same] : FindFreeStretch(arm, clearance, chains[k]));
+  }
+  return stretches;
 }
 
 struct RollReach {
@@ -77,20 +97,23 @@ RollReach FindRollReach(const ArmSetup& arm, const Clearance& clearance, const S
         FindChains(arm.ik, arm.collision, clearance, line_WF, step_m / arm.scan_m_per_s, wanted, settings.chain);
     if (result.chains.empty()) return {false, result.verdict, {}};
     RollReach reach;
-    JointChain longest;
-    for (const JointChain& chain : result.chains) {
-      JointChain free = KeepFree(arm, clearance, chain, wanted);
-      if (static_cast<int>(free.q.size()) == steps + 1 && reach.drives.size() < settings.drives)
-        reach.drives.push_back({part, free.q});
-      if (free.q.size() > longest.q.size()) longest = std::move(free);
+    const std::vector<Stretch> stretches = FindFreeStretches(arm, clearance, result.chains);
+    size_t longest = 0;
+    for (size_t k = 0; k < stretches.size(); ++k) {
+      const auto length_of = [&](size_t i) { return stretches[i].last - stretches[i].first; };
+      if (static_cast<int>(length_of(k)) == steps && reach.drives.size() < settings.drives)
+        reach.drives.push_back({part, result.chains[k].q});
+      if (length_of(k) > length_of(longest)) longest = k;
     }
     if (!reach.drives.empty()) {
       reach.whole = cut == 0;
       return reach;
     }
     // Touched only between the states.
-    if (longest.q.empty()) return {false, Verdict::kBlockedByUnknown, {}};
-    part = CutPath(part, static_cast<double>(longest.begin) / steps, static_cast<double>(longest.end()) / steps);
+    const auto first =
+        static_cast<double>(static_cast<size_t>(result.chains[longest].begin) + stretches[longest].first);
+    const auto last = static_cast<double>(static_cast<size_t>(result.chains[longest].begin) + stretches[longest].last);
+    part = CutPath(part, first / steps, last / steps);
     if (part.length_m() < wanted_m) return {false, Verdict::kBlockedByUnknown, {}};
   }
   return {false, Verdict::kBlockedByUnknown, {}};

@@ -84,17 +84,24 @@ Trapezoid MakeTrapezoid(const ArmModel& model, const ArmTimingLimits& limits, co
 
 class Writer {
  public:
-  Writer(const ArmModel& model, const Pose& X_WB, Trajectory& trajectory)
-      : model_(model), X_WB_(X_WB), points_(trajectory.points) {}
+  Writer(const ArmModel& model, const Pose& X_WB, const ArmTimingLimits& limits, Trajectory& trajectory)
+      : model_(model), X_WB_(X_WB), limits_(limits), points_(trajectory.points) {}
 
-  /// Adds joint values at a time, later than the last by at least a microsecond.
+  /// Adds joint values at a time, later than the last by at least a microsecond, and late enough for the scan speed:
+  /// joints that turn evenly do not move the sensor quite evenly.
   void Add(double time_s, const Joints& q, bool scanning) {
-    auto time_us = static_cast<int64_t>(std::ceil(time_s * 1e6));
+    const Pose X_WF = X_WB_ * CalcFlangePose(model_, q);
+    if (scanning) {
+      const double way_m =
+          ((X_WF * limits_.X_FS).translation() - (points_.back().X_WF * limits_.X_FS).translation()).norm();
+      late_s_ = std::max(late_s_, this->time_s() + way_m / limits_.flange.scan_m_per_s - time_s);
+    }
+    auto time_us = static_cast<int64_t>(std::ceil((time_s + late_s_) * 1e6));
     if (!points_.empty()) {
       time_us = std::max(time_us, points_.back().time_us + 1);
       points_.back().scanning = scanning;
     }
-    points_.push_back({time_us, X_WB_ * CalcFlangePose(model_, q), {q.begin(), q.end()}, false});
+    points_.push_back({time_us, X_WF, {q.begin(), q.end()}, false});
   }
   double time_s() const { return 1e-6 * static_cast<double>(points_.back().time_us); }
   void WaitFor(int64_t period_us) {
@@ -105,7 +112,9 @@ class Writer {
  private:
   const ArmModel& model_;
   const Pose& X_WB_;
+  const ArmTimingLimits& limits_;
   std::vector<TrajectoryPoint>& points_;
+  double late_s_ = 0.0;  ///< How far the scan has fallen behind.
 };
 
 void WriteApproach(const ArmModel& model, const ArmTimingLimits& limits, std::span<const Joints> approach,
@@ -163,7 +172,7 @@ Trajectory MakeArmTrajectory(const ArmModel& model, const Pose& X_WB, const ArmT
                              std::span<const Joints> approach, std::span<const Joints> scan, double length_m) {
   if (approach.empty() || scan.size() < 2) throw std::invalid_argument("MakeArmTrajectory: too few joint values");
   Trajectory trajectory;
-  Writer writer(model, X_WB, trajectory);
+  Writer writer(model, X_WB, limits, trajectory);
   writer.Add(0.0, approach.front(), false);
   WriteApproach(model, limits, approach, writer);
   writer.WaitFor(limits.flange.profile_period_us);

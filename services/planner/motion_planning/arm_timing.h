@@ -13,9 +13,10 @@ namespace nbs {
 struct ArmTimingLimits {
   std::vector<double> rad_per_s;
   std::vector<double> rad_per_s2;
-  TimingLimits flange;          ///< Between scans; scan_m_per_s along them.
-  double scan_m_per_s2 = 0.25;  ///< Acceleration of the sensor at either end of a scan path.
-  double piece_s = 0.06;        ///< Longest piece of a ramp; a trajectory's points are joined by straight lines.
+  Pose X_FS = Pose::Identity();  ///< The sensor, whose speed counts along a scan path.
+  TimingLimits flange;           ///< Between scans; scan_m_per_s along them.
+  double scan_m_per_s2 = 0.25;   ///< Acceleration of the sensor at either end of a scan path.
+  double piece_s = 0.06;         ///< Longest piece of a ramp; a trajectory's points are joined by straight lines.
 };
 
 /// Puts times to an arm's motion: the approach, at rest at each of its joint values, then the scan path at the scan
