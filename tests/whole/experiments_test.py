@@ -14,9 +14,10 @@ for ((i = 1; i < $#; ++i)); do [[ ${{!i}} != --run ]] || {{ next=$((i + 1)); run
 if [[ -e {folder}/broken && $run == */B-IG/seed2 ]]; then echo "the planner broke" >&2; exit 2; fi
 exec {binary}/bin/nbs-planner "$@"
 """
-# Stands in for ssh HOST -- COMMAND: notes the host and runs the command here.
+# Stands in for ssh HOST -- COMMAND: notes the host and runs the command here, in a login shell's environment.
 FAKE_SSH = """#!/bin/bash
 echo "$1" >>{folder}/hosts
+export SHELL=/bin/bash
 shift 2
 exec bash -c "$*"
 """
