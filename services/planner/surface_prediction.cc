@@ -207,10 +207,9 @@ void SurfacePrediction::FindElements() {
     }
     if (!open || gradient.norm() < 1e-6f || IsNearSurface(block)) return;
     const Eigen::Vector3f normal_W = -gradient.normalized();
-    const int64_t row = block / shape_.size.x();
+    const int64_t row = block / shape_.size.x(), layer = row / shape_.size.y();
     const Eigen::Vector3d middle(static_cast<double>(block % shape_.size.x()) + 0.5,
-                                 static_cast<double>(row % shape_.size.y()) + 0.5,
-                                 static_cast<double>(row / shape_.size.y()) + 0.5);
+                                 static_cast<double>(row % shape_.size.y()) + 0.5, static_cast<double>(layer) + 0.5);
     elements_.push_back({(shape_.origin_W + shape_.resolution_m * middle).cast<float>(), normal_W,
                          face_m2 / normal_W.cwiseAbs().maxCoeff() * Discount(block), static_cast<uint32_t>(block)});
   });
