@@ -95,6 +95,7 @@ class Experiments(WholeRunTest):
         _, errors = self.finish(process, code=130)
         self.assertIn("interrupted; the same command goes on from here", errors)
         wait_until(lambda: not list_service_processes(str(self.folder / "interrupted")), "all services have ended", seconds=20)
+        wait_until(lambda: not list((self.folder / "state/sets").glob("*")), "all scans have forgotten their sets", seconds=20)
         self.assert_nothing_runs()
 
     def test_runs_are_spread_over_the_hosts_of_a_file(self):
