@@ -66,8 +66,8 @@ PlanMode ChooseMode(const RunSettings& settings, const RunLogicState& state) {
 /// Whether the last scan hardly changed the count of unknown voxels; the first never is the last.
 bool IsUnknownSettled(const RunSettings& settings, const RunLogicState& state, const Plan& plan) {
   if (settings.end != EndRule::kUnknownSettled || state.scan < 2) return false;
-  const auto before = static_cast<double>(state.unknown_cells);
-  return before - static_cast<double>(plan.unknown_cells) < settings.settled_unknown * before;
+  const auto taken = static_cast<double>(state.unknown_cells - plan.unknown_cells);
+  return taken < settings.settled_unknown * static_cast<double>(state.unknown_at_start);
 }
 
 /// Share of edges that a scan added to the mesh before it.
@@ -106,6 +106,7 @@ RunStep Advance(const RunSettings& settings, const RunLogicState& state, const P
   RunLogicState next = state;
   next.utime_us = std::max(next.utime_us, plan.utime_us);
   next.unknown_cells = plan.unknown_cells;
+  if (state.mode == PlanMode::kFirst) next.unknown_at_start = plan.unknown_cells;
   if (plan.found && IsUnknownSettled(settings, state, plan)) {
     return Finish(next, state.scan, false, "unknown_settled",
                   fmt::format("{} voxels are still unknown; {} were before the last scan.", plan.unknown_cells,

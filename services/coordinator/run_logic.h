@@ -19,8 +19,8 @@ struct RunSettings {
   double complete_growth = 0.01;
   CandidateSearch search = CandidateSearch::kBoundaryAndHole;
   EndRule end = EndRule::kCompleteness;
-  /// kUnknownSettled: a scan that leaves more than 1 - this of the unknown voxels unknown was the last.
-  double settled_unknown = 0.05;
+  /// kUnknownSettled: a scan that takes less than this share of all voxels that were unknown at the start was the last.
+  double settled_unknown = 0.01;
   // The mesh completeness "hardly changed" (section III) when this many boundary scans in a row each closed less than
   // `settled_closing` of what was missing, 1 - completeness, and added less than `settled_growth` to the edges of the
   // mesh.
@@ -45,6 +45,7 @@ struct RunLogicState {
   int64_t utime_us = 0;               ///< Latest time seen or given.
   std::optional<MeshScan> last_scan;  ///< The mesh after the last finished scan.
   int64_t unknown_cells = 0;          ///< When the last plan was made.
+  int64_t unknown_at_start = 0;       ///< When the first plan was made.
   int settled = 0;                    ///< Boundary scans in a row after which the mesh had hardly changed.
 };
 

@@ -102,7 +102,8 @@ void PlannerNode::Answer(const PlanRequest& request, Outbox& out) {
 }
 
 void PlannerNode::FoldNewestScan() {
-  if (std::exchange(predicted_scan_, newest_scan_) == newest_scan_ || rating_.rule != GainRule::kSurface) return;
+  if (!rating_.by_gain || rating_.rule != GainRule::kSurface) return;
+  if (std::exchange(predicted_scan_, newest_scan_) == newest_scan_) return;
   prediction_.AddScan(voxels_, config_.cell.profiler, newest_path_);
   prediction_.Update(voxels_, mesh_);
 }

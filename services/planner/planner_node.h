@@ -19,7 +19,7 @@ struct PlannerSettings {
   /// A candidate that promises less is not worth a motion. Borders count little beside predicted surface (their strips
   /// have max_rim_share of it): 3 nat are a surface of 1 cm², or the borders of some gaps of 30 mm …
   double min_gain_nat = 3.0;
-  double min_hole_gain_nat = 0.3;  ///< … and a tenth of that where only holes are left.
+  double min_hole_gain_nat = 0.1;  ///< … and a thirtieth of that where only holes are left.
   double gain_reach_m = 0.025;     ///< For GainRule::kNearSurface.
   int threads = 2;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "common/geometry/borders.h"
@@ -67,7 +68,8 @@ void CheckSettings(const SurfacePredictionSettings& s) {
   const bool sound = s.cells_per_block >= 1 && s.depth_m > 0.0 && s.free_max_probability > 0.0 &&
                      s.free_max_probability < 0.95 && s.iterations >= 1 && s.relaxation > 0.0 && s.relaxation < 2.0 &&
                      s.look_weight >= 0.0 && s.max_looks >= 0 && s.rim_width_m > 0.0 && s.max_rim_share > 0.0 &&
-                     s.missed_factor >= 0.0 && s.missed_factor <= 1.0;
+                     s.missed_factor >= 0.0 && s.missed_factor <= 1.0 && s.missed_elsewhere >= 0.0 &&
+                     s.missed_elsewhere <= 1.0;
   if (!sound) throw std::invalid_argument("SurfacePrediction: a setting is out of range");
 }
 
@@ -82,7 +84,7 @@ SurfacePrediction::SurfacePrediction(const GridShape& shape, const SurfacePredic
   occupied_.assign(shape_.cells(), 0);
   room_.assign(shape_.cells(), kMaxRoom);
   looks_.assign(shape_.cells(), 0);
-  missed_.assign(shape_.cells(), 0);
+  missed_along_W_.resize(shape_.cells());
 }
 
 int64_t SurfacePrediction::FindBlock(int64_t cell, const GridShape& cells) const {
@@ -93,8 +95,13 @@ int64_t SurfacePrediction::FindBlock(int64_t cell, const GridShape& cells) const
 }
 
 void SurfacePrediction::AddScan(const VoxelGrid& grid, const Profiler& profiler, const ScanPath& path) {
-  std::vector<uint8_t> looked(shape_.cells(), 0), due(shape_.cells(), 0);
-  for (uint32_t i : SurfaceView(profiler).FindSeen(*this, path)) due[elements_[i].block] = 1;
+  std::map<uint32_t, Eigen::Vector3f> due;  // By block: in which direction the scan should have seen its elements.
+  for (const Sighting& sighting : SurfaceView(profiler).FindSeen(*this, path))
+    due.try_emplace(elements_[sighting.element].block, Eigen::Vector3f::Zero()).first->second +=
+        sighting.beam_W.normalized();
+  for (const auto& [block, along_W] : due) missed_along_W_[block].push_back(along_W.normalized());
+
+  std::vector<uint8_t> looked(shape_.cells(), 0);
   VisitBeams(profiler, path, [&](const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W) {
     WalkRay(MakeRayWalk(grid.shape(), from_W, to_W), [&](int64_t cell) {
       const int16_t log_odds = grid.cells()[cell];
@@ -102,10 +109,8 @@ void SurfacePrediction::AddScan(const VoxelGrid& grid, const Profiler& profiler,
       return !IsOccupied(log_odds);
     });
   });
-  for (int64_t block = 0; block < shape_.cells(); ++block) {
+  for (int64_t block = 0; block < shape_.cells(); ++block)
     looks_[block] = std::min<uint8_t>(kMaxCount, looks_[block] + looked[block]);
-    missed_[block] = std::min<uint8_t>(kMaxCount, missed_[block] + due[block]);
-  }
 }
 
 void SurfacePrediction::Update(const VoxelGrid& grid, const MeshReplica& mesh) {
@@ -190,8 +195,19 @@ bool SurfacePrediction::IsNearSurface(int64_t block) const {
   return false;
 }
 
-float SurfacePrediction::Discount(int64_t block) const {
-  return std::pow(static_cast<float>(settings_.missed_factor), static_cast<float>(missed_[block]));
+float SurfacePrediction::CalcTrust(const SurfaceElement& element, const Eigen::Vector3f& beam_W) const {
+  const std::vector<Eigen::Vector3f>& missed_along_W = missed_along_W_[element.block];
+  if (missed_along_W.empty()) return 1.0f;
+  const auto again = static_cast<float>(settings_.missed_factor);
+  const auto elsewhere = static_cast<float>(settings_.missed_elsewhere);
+  const Eigen::Vector3f along_W = beam_W.normalized();
+  float trust = 1.0f;
+  for (const Eigen::Vector3f& missed_W : missed_along_W) {
+    const float cosine = std::max(0.0f, missed_W.dot(along_W));
+    const float likeness = cosine * cosine * cosine * cosine;  // A half at 33 degrees.
+    trust *= again * likeness + elsewhere * (1.0f - likeness);
+  }
+  return trust;
 }
 
 void SurfacePrediction::FindElements() {
@@ -211,7 +227,7 @@ void SurfacePrediction::FindElements() {
     const Eigen::Vector3d middle(static_cast<double>(block % shape_.size.x()) + 0.5,
                                  static_cast<double>(row % shape_.size.y()) + 0.5, static_cast<double>(layer) + 0.5);
     elements_.push_back({(shape_.origin_W + shape_.resolution_m * middle).cast<float>(), normal_W,
-                         face_m2 / normal_W.cwiseAbs().maxCoeff() * Discount(block), static_cast<uint32_t>(block)});
+                         face_m2 / normal_W.cwiseAbs().maxCoeff(), static_cast<uint32_t>(block)});
   });
 }
 
@@ -235,7 +251,7 @@ void SurfacePrediction::AddRim(const MeshReplica& mesh) {
   const auto most_m2 = static_cast<float>(settings_.max_rim_share * shape_.resolution_m * shape_.resolution_m);
   for (size_t i = first; i < elements_.size(); ++i) {
     SurfaceElement& element = elements_[i];
-    element.area_m2 *= Discount(element.block) * std::min(1.0f, most_m2 / strip_m2[element.block]);
+    element.area_m2 *= std::min(1.0f, most_m2 / strip_m2[element.block]);
   }
 }
 

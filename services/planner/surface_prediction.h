@@ -16,8 +16,8 @@ namespace nbs {
 struct SurfaceElement {
   Eigen::Vector3f p_W = Eigen::Vector3f::Zero();        ///< Middle, metres.
   Eigen::Vector3f normal_W = Eigen::Vector3f::UnitZ();  ///< Unit, outward.
-  float area_m2 = 0.0f;                                 ///< Discounted for each scan that looked at it in vain.
-  uint32_t block = 0;                                   ///< Block of the prediction in which it lies.
+  float area_m2 = 0.0f;
+  uint32_t block = 0;  ///< Block of the prediction in which it lies.
 };
 
 struct SurfacePredictionSettings {
@@ -30,7 +30,8 @@ struct SurfacePredictionSettings {
   int max_looks = 5;            ///< More scans than this pull no harder.
   double rim_width_m = 0.008;   ///< Of the strip of elements along the border of the mesh.
   double max_rim_share = 0.05;  ///< Elements of the strip in one block come to at most this share of a block's face.
-  double missed_factor = 0.1;   ///< What is left of an element's area when a scan should have seen it and did not.
+  double missed_factor = 0.1;  ///< What is left of the trust in an element when a scan should have seen it and did not:
+  double missed_elsewhere = 0.8;  ///< looked at from there again, and from a side at right angles to it.
 };
 
 /// The unseen surface, foretold from what is known: a potential that is 1 behind every measured point, -1 in known free
@@ -41,7 +42,8 @@ struct SurfacePredictionSettings {
 /// what is finer than a block. The prediction serves to choose where to look, never as a surface, and frees nothing.
 ///
 /// A scan whose beams pass a block and bring nothing back does not prove it free, but speaks for air: it pulls the
-/// potential to -1, and elements that it should have seen lose most of their area.
+/// potential to -1, and elements that it should have seen are trusted less, most of all when looked at from there
+/// again: what a fold hides from one side may be open to another.
 class SurfacePrediction {
  public:
   /// @param shape  Of the voxel space.
@@ -56,6 +58,10 @@ class SurfacePrediction {
 
   /// Predicted blocks in index order, then the border's edges in the order of FindBorderEdges.
   std::span<const SurfaceElement> elements() const { return elements_; }
+  /// Share of an element's area that a look at it may hope for, after the looks in vain at its block, 0 to 1.
+  ///
+  /// @param beam_W  From the sensor to the element, of any length but 0.
+  float CalcTrust(const SurfaceElement& element, const Eigen::Vector3f& beam_W) const;
   /// Room around a block: 0 for what ends a line of sight (measured surface, and the predicted inside), otherwise the
   /// number of steps between neighbours, corners included, to the nearest such block, at most kMaxRoom; by block index.
   std::span<const uint8_t> room() const { return room_; }
@@ -72,7 +78,6 @@ class SurfacePrediction {
   void FindElements();
   void AddRim(const MeshReplica& mesh);
   bool IsNearSurface(int64_t block) const;
-  float Discount(int64_t block) const;
   int64_t FindBlock(int64_t cell, const GridShape& cells) const;
 
   SurfacePredictionSettings settings_;
@@ -82,8 +87,9 @@ class SurfacePrediction {
   std::vector<uint8_t> fixed_;     ///< The potential is known.
   std::vector<uint8_t> occupied_;  ///< Holds an occupied voxel.
   std::vector<uint8_t> room_;
-  std::vector<uint8_t> looks_;   ///< Scans that looked through a block in vain.
-  std::vector<uint8_t> missed_;  ///< Scans that should have seen an element in a block.
+  std::vector<uint8_t> looks_;  ///< Scans that looked through a block in vain.
+  /// By block: unit directions of the scans that should have seen an element in it.
+  std::vector<std::vector<Eigen::Vector3f>> missed_along_W_;
   std::vector<SurfaceElement> elements_;
 };
 

@@ -64,13 +64,16 @@ void SurfaceView::VisitSeen(const SurfacePrediction& prediction, const ScanPath&
     if (-beam_W.dot(element.normal_W) < beam_W.norm() * min_cosine_) continue;
     if (!IsInSight(prediction, emitter_W, element.p_W)) continue;
     if (camera_baseline_m_ != 0.0f && !IsInSight(prediction, emitter_W + to_camera_W, element.p_W)) continue;
-    visit(i);
+    visit(i, beam_W);
   }
 }
 
 double SurfaceView::CalcArea(const SurfacePrediction& prediction, const ScanPath& path, uint32_t element_step) const {
   double area_m2 = 0.0;
-  VisitSeen(prediction, path, element_step, [&](uint32_t i) { area_m2 += prediction.elements()[i].area_m2; });
+  VisitSeen(prediction, path, element_step, [&](uint32_t i, const Eigen::Vector3f& beam_W) {
+    const SurfaceElement& element = prediction.elements()[i];
+    area_m2 += element.area_m2 * prediction.CalcTrust(element, beam_W);
+  });
   return element_step * area_m2;
 }
 
@@ -92,9 +95,9 @@ std::vector<double> SurfaceView::CalcGains(const SurfacePrediction& prediction, 
   return gains_nat;
 }
 
-std::vector<uint32_t> SurfaceView::FindSeen(const SurfacePrediction& prediction, const ScanPath& path) const {
-  std::vector<uint32_t> seen;
-  VisitSeen(prediction, path, 1, [&seen](uint32_t i) { seen.push_back(i); });
+std::vector<Sighting> SurfaceView::FindSeen(const SurfacePrediction& prediction, const ScanPath& path) const {
+  std::vector<Sighting> seen;
+  VisitSeen(prediction, path, 1, [&seen](uint32_t i, const Eigen::Vector3f& beam_W) { seen.push_back({i, beam_W}); });
   return seen;
 }
 

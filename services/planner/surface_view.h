@@ -8,6 +8,12 @@
 
 namespace nbs {
 
+/// An element of the prediction as a path sees it.
+struct Sighting {
+  uint32_t element = 0;                               ///< Its number.
+  Eigen::Vector3f beam_W = Eigen::Vector3f::UnitZ();  ///< From the emitter to it, metres.
+};
+
 /// What a scan path would see of the predicted surface.
 ///
 /// An element is seen if it comes into the light plane between start and end of the path, there within fan and depth of
@@ -18,8 +24,9 @@ class SurfaceView {
  public:
   explicit SurfaceView(const Profiler& profiler, double incidence_margin_rad = 0.1);
 
-  /// Information gain of a path in nats: ln 2 for every voxel face of seen surface, each counted once however many
-  /// beams meet it; eq. 2 with the sum over the cells of a surface instead of over all cells along beams.
+  /// Information gain of a path in nats: ln 2 for every voxel face of seen surface, by the trust in it
+  /// (SurfacePrediction::CalcTrust), each counted once however many beams meet it; eq. 2 with the sum over the cells of
+  /// a surface instead of over all cells along beams.
   ///
   /// @param voxel_m  Edge of a voxel.
   double CalcGain(const SurfacePrediction& prediction, const ScanPath& path, double voxel_m) const;
@@ -30,8 +37,8 @@ class SurfaceView {
   std::vector<double> CalcGains(const SurfacePrediction& prediction, std::span<const ScanPath> paths, double voxel_m,
                                 int threads, uint32_t element_step = 1) const;
 
-  /// Numbers of the elements that a path sees, ascending.
-  std::vector<uint32_t> FindSeen(const SurfacePrediction& prediction, const ScanPath& path) const;
+  /// The elements that a path sees, by ascending number.
+  std::vector<Sighting> FindSeen(const SurfacePrediction& prediction, const ScanPath& path) const;
 
  private:
   template <typename Visit>

@@ -192,14 +192,26 @@ TEST(RunLogic, UnknownVoxelsThatHardlyChangeEndAMethodThatCountsThem) {
   settings.end = EndRule::kUnknownSettled;
   RunLogicState state = MakeState(Awaiting::kPlan, 4, PlanMode::kSphere);
   state.unknown_cells = 100'000;
+  state.unknown_at_start = 500'000;
   Plan plan = MakePlan(4, PlanMode::kSphere, true);
-  plan.unknown_cells = 94'000;
+  plan.unknown_cells = 94'990;
   EXPECT_EQ(Advance(settings, state, plan).state.awaiting, Awaiting::kExecution);
-  EXPECT_EQ(Advance(settings, state, plan).state.unknown_cells, 94'000);
-  plan.unknown_cells = 95'100;
+  EXPECT_EQ(Advance(settings, state, plan).state.unknown_cells, 94'990);
+  plan.unknown_cells = 95'001;
   EXPECT_EQ(Find<RunState>(Advance(settings, state, plan)).end_reason, "unknown_settled");
   settings.end = EndRule::kCompleteness;
   EXPECT_EQ(Advance(settings, state, plan).state.awaiting, Awaiting::kExecution);
+}
+
+TEST(RunLogic, TheFirstPlanTellsHowManyVoxelsAreUnknownAtTheStart) {
+  Plan plan = MakePlan(0, PlanMode::kFirst, true);
+  plan.unknown_cells = 700'000;
+  EXPECT_EQ(Advance(kSettings, MakeState(Awaiting::kPlan, 0, PlanMode::kFirst), plan).state.unknown_at_start, 700'000);
+  plan = MakePlan(1, PlanMode::kSphere, true);
+  plan.unknown_cells = 600'000;
+  RunLogicState state = MakeState(Awaiting::kPlan, 1, PlanMode::kSphere);
+  state.unknown_at_start = 700'000;
+  EXPECT_EQ(Advance(kSettings, state, plan).state.unknown_at_start, 700'000);
 }
 
 TEST(RunLogic, HolesAreScannedForTheRestOfTheRun) {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "services/planner/surface_view.h"
 #include "tests/services/planner/half_seen_ball.h"
 #include "tests/services/planner/synthetic_mesh.h"
 
@@ -100,13 +101,22 @@ TEST(SurfacePrediction, TheBorderInABlockIsWorthAShareOfItsFaceAtMost) {
   for (const auto& [block, area_m2] : by_block_m2) EXPECT_LE(area_m2, 0.05 * 1e-4 * 1.001);
 }
 
-TEST(SurfacePrediction, ALookInVainTakesMostOfAnElementsArea) {
+TEST(SurfacePrediction, ALookInVainIsHeldAgainstLooksFromThereMoreThanFromElsewhere) {
   const HalfSeenBall ball;
   SurfacePrediction prediction = Predict(ball);
-  const double before = CalcArea(prediction);
-  prediction.AddScan(ball.voxels, Profiler(), MakePathBelow());
-  prediction.Update(ball.voxels, ball.mesh);
-  EXPECT_LT(CalcArea(prediction), 0.7 * before);
+  const ScanPath below = MakePathBelow();
+  const std::vector<Sighting> seen = SurfaceView(Profiler()).FindSeen(prediction, below);
+  ASSERT_FALSE(seen.empty());
+  const SurfaceElement element = prediction.elements()[seen.front().element];
+  const Eigen::Vector3f up_W = Eigen::Vector3f::UnitZ(), along_W = seen.front().beam_W;
+  const Eigen::Vector3f across_W = along_W.cross(Eigen::Vector3f::UnitX());
+  EXPECT_EQ(prediction.CalcTrust(element, along_W), 1.0f);
+  prediction.AddScan(ball.voxels, Profiler(), below);
+  EXPECT_NEAR(prediction.CalcTrust(element, along_W), 0.1f, 0.02f);  // Other elements of the block lie a little aside.
+  EXPECT_NEAR(prediction.CalcTrust(element, across_W), 0.8f, 0.01f);
+  EXPECT_NEAR(prediction.CalcTrust(element, -up_W), 0.8f, 0.01f);
+  prediction.AddScan(ball.voxels, Profiler(), below);
+  EXPECT_NEAR(prediction.CalcTrust(element, across_W), 0.64f, 0.02f);
 }
 
 TEST(SurfacePrediction, ALookInVainPushesThePredictedSurfaceBack) {
@@ -159,6 +169,7 @@ TEST(SurfacePrediction, SettingsOutOfRangeAreRefused) {
   EXPECT_THROW(SurfacePrediction(shape, {.cells_per_block = 0}), std::invalid_argument);
   EXPECT_THROW(SurfacePrediction(shape, {.relaxation = 2.0}), std::invalid_argument);
   EXPECT_THROW(SurfacePrediction(shape, {.missed_factor = 1.5}), std::invalid_argument);
+  EXPECT_THROW(SurfacePrediction(shape, {.missed_elsewhere = -0.1}), std::invalid_argument);
 }
 
 }  // namespace

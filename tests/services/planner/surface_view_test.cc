@@ -24,8 +24,8 @@ struct Plane {
   /// How many of the elements in the plane itself a path sees.
   int Count(const ScanPath& path, const Profiler& profiler = {}) const {
     int count = 0;
-    for (uint32_t i : SurfaceView(profiler).FindSeen(prediction, path))
-      count += std::abs(prediction.elements()[i].p_W.z()) < 1e-6f;
+    for (const Sighting& seen : SurfaceView(profiler).FindSeen(prediction, path))
+      count += std::abs(prediction.elements()[seen.element].p_W.z()) < 1e-6f;
     return count;
   }
   int CountAll() const {
@@ -53,8 +53,11 @@ TEST(SurfaceView, APathOverThePlaneSeesItsWholeRim) {
 TEST(SurfaceView, APathThatEndsInTheMiddleSeesTheFirstPart) {
   const Plane plane;
   const ScanPath path = MakePath({0.03, -0.020, 0.325}, -Eigen::Vector3d::UnitZ(), 0.035);  // y from -0.055 to 0.015
-  for (uint32_t i : SurfaceView(Profiler()).FindSeen(plane.prediction, path))
-    EXPECT_LE(plane.prediction.elements()[i].p_W.y(), 0.0151f);
+  for (const Sighting& seen : SurfaceView(Profiler()).FindSeen(plane.prediction, path)) {
+    const SurfaceElement& element = plane.prediction.elements()[seen.element];
+    EXPECT_LE(element.p_W.y(), 0.0151f);
+    EXPECT_NEAR((element.p_W - seen.beam_W).z(), 0.325f, 1e-6f);  // The emitter.
+  }
   EXPECT_GT(plane.Count(path), 25);
   EXPECT_LT(plane.Count(path), 35);
 }
@@ -107,9 +110,23 @@ TEST(SurfaceView, TheGainIsTheSeenAreaInVoxelFacesTimesLn2) {
   const SurfaceView view{Profiler()};
   const ScanPath below = MakePath({0.0, 0.0, -0.325}, Eigen::Vector3d::UnitZ(), 0.1);
   double area_m2 = 0.0;
-  for (uint32_t i : view.FindSeen(prediction, below)) area_m2 += prediction.elements()[i].area_m2;
+  for (const Sighting& seen : view.FindSeen(prediction, below)) area_m2 += prediction.elements()[seen.element].area_m2;
   ASSERT_GT(area_m2, 0.003);
   EXPECT_NEAR(view.CalcGain(prediction, below, kVoxel_m), area_m2 / 25e-6 * std::numbers::ln2, 1e-9);
+}
+
+TEST(SurfaceView, APathThatWasScannedInVainPromisesLittleAndOneFromElsewhereMore) {
+  Plane plane;
+  const SurfaceView view{Profiler()};
+  const Eigen::Vector3d askew_W = Eigen::Vector3d(1.0, 0.0, -1.0).normalized();
+  const ScanPath above = MakePath(kAbove_W);
+  const ScanPath aside = MakePath(Eigen::Vector3d(0.03, 0.0, 0.0) - 0.325 * askew_W, askew_W);
+  const double above_nat = view.CalcGain(plane.prediction, above, kVoxel_m);
+  const double aside_nat = view.CalcGain(plane.prediction, aside, kVoxel_m);
+  plane.prediction.AddScan(plane.voxels, Profiler(), above);
+  EXPECT_LT(view.CalcGain(plane.prediction, above, kVoxel_m), 0.15 * above_nat);
+  EXPECT_GT(view.CalcGain(plane.prediction, aside, kVoxel_m), 0.5 * aside_nat);
+  EXPECT_LT(view.CalcGain(plane.prediction, aside, kVoxel_m), 0.8 * aside_nat);
 }
 
 TEST(SurfaceView, ThreadsChangeNothing) {
