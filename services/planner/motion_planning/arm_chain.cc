@@ -2,187 +2,195 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nbs {
 namespace {
 
-/// Joint values at one pose of the line, with the best chain that ends there.
-struct Node {
-  Joints q;
-  ArmTouch touch = ArmTouch::kFree;
-  std::vector<int> from;  ///< Nodes of the pose before that lead here.
-  int poses = 0;          ///< Of the chain; 0: the node is not used.
-  int before = -1;        ///< Node of the pose before, on the chain.
-  double travel_rad = 0.0;
-};
+/// True if two joint values differ by whole turns alone.
+bool AreTurned(const Joints& a, const Joints& b) {
+  constexpr double kWholeTurn = 6.0;  // rad; joint values of other solutions do not differ by whole turns alone
+  return (a - b).unaryExpr([](double d) { return std::abs(d) < 1e-12 || std::abs(d) > kWholeTurn; }).all();
+}
 
-using Layer = std::vector<Node>;
+}  // namespace
 
-class Ladder {
- public:
-  Ladder(const InverseKinematics& ik, const ArmCollision& collision, const Clearance& clearance,
-         const std::vector<Pose>& X_WF, double step_s, const ChainSettings& settings)
-      : model_(ik.model()), step_s_(step_s), settings_(settings) {
-    const Pose X_BW = collision.X_WB().inverse();
-    std::vector<Joints> near;
-    for (const Pose& pose : X_WF) {
-      X_BF_.push_back(X_BW * pose);
-      Layer layer;
-      for (const Joints& q : ik.FindAll(X_BF_.back(), near)) layer.push_back({q, {}, {}, 0, -1, 0.0});
-      Touch(collision, clearance, layer);
-      near.clear();
-      for (const Node& node : layer) near.push_back(node.q);
-      layers_.push_back(std::move(layer));
-    }
-    for (size_t k = 1; k < layers_.size(); ++k) Join(k);
-  }
+JointLadder::JointLadder(const InverseKinematics& ik, const ArmCollision& collision, const Clearance& clearance,
+                         const std::vector<Pose>& X_WF, double step_s, const ChainSettings& settings)
+    : ik_(ik),
+      collision_(collision),
+      clearance_(clearance),
+      step_s_(step_s),
+      settings_(settings),
+      X_BW_(collision.X_WB().inverse()),
+      rungs_(X_WF.size()) {
+  for (size_t k = 0; k < X_WF.size(); ++k) rungs_[k].X_WF = X_WF[k];
+}
 
-  /// Chains over nodes that touch nothing worse than `worst`; returns the poses of the longest.
-  int FindLongest(ArmTouch worst) {
-    int longest = 0;
-    for (size_t k = 0; k < layers_.size(); ++k) {
-      for (Node& node : layers_[k]) {
-        node.poses = node.touch <= worst ? 1 : 0;
-        node.before = -1;
-        node.travel_rad = 0.0;
-        if (node.poses > 0 && k > 0) Extend(layers_[k - 1], node);
-        longest = std::max(longest, node.poses);
-      }
-    }
-    return longest;
-  }
+std::vector<JointChain> JointLadder::FindChains(int wanted) {
+  const int longest = FindLongest(ArmTouch::kFree, wanted);
+  return longest >= wanted ? Collect(longest) : std::vector<JointChain>();
+}
 
-  /// The longest run of poses with any joint values at all.
-  int FindLongestRun() const {
-    int longest = 0;
-    int run = 0;
-    for (const Layer& layer : layers_) {
-      run = layer.empty() ? 0 : run + 1;
-      longest = std::max(longest, run);
-    }
-    return longest;
-  }
-
-  const std::vector<Pose>& X_BF() const { return X_BF_; }
-
-  /// One chain of that length for each node that can begin one.
-  std::vector<JointChain> Collect(int poses) const {
-    std::vector<JointChain> chains;
-    std::vector<std::pair<int, int>> begun;
-    for (size_t k = 0; k < layers_.size(); ++k) {
-      for (const Node& node : layers_[k]) {
-        if (node.poses != poses) continue;
-        auto [first, chain] = Trace(k, node);
-        const auto known = std::find(begun.begin(), begun.end(), first);
-        if (known == begun.end()) {
-          begun.push_back(first);
-          chains.push_back(std::move(chain));
-        } else {
-          JointChain& other = chains[static_cast<size_t>(known - begun.begin())];
-          if (chain.travel_rad < other.travel_rad) other = std::move(chain);
-        }
-      }
-    }
-    std::stable_sort(chains.begin(), chains.end(),
-                     [](const JointChain& a, const JointChain& b) { return a.travel_rad < b.travel_rad; });
-    return chains;
-  }
-
- private:
-  /// Whole turns of joints put the arm in the same place.
-  static void Touch(const ArmCollision& collision, const Clearance& clearance, Layer& layer) {
-    constexpr double kWholeTurn = 6.0;  // rad; joint values of other solutions do not differ by whole turns alone
-    for (size_t i = 0; i < layer.size(); ++i) {
-      const auto same =
-          std::find_if(layer.begin(), layer.begin() + static_cast<std::ptrdiff_t>(i), [&](const Node& other) {
-            return (layer[i].q - other.q)
-                .unaryExpr([](double d) { return std::abs(d) < 1e-12 || std::abs(d) > kWholeTurn; })
-                .all();
-          });
-      const bool known = same != layer.begin() + static_cast<std::ptrdiff_t>(i);
-      layer[i].touch = known ? same->touch : collision.FindTouch(clearance, layer[i].q);
-    }
-  }
-
-  bool AreJoined(size_t k, const Joints& q_from, const Joints& q_to) const {
-    for (int j = 0; j < model_.n(); ++j) {
-      if (std::abs(q_to[j] - q_from[j]) > model_.joints[static_cast<size_t>(j)].max_rad_per_s * step_s_) return false;
-    }
-    const Pose X_BF = CalcFlangePose(model_, 0.5 * (q_from + q_to));
-    const Pose X_BF_line = Interpolate(X_BF_[k - 1], X_BF_[k], 0.5);
-    return (X_BF.translation() - X_BF_line.translation()).norm() <= settings_.largest_off_m &&
-           CalcAngleBetween(X_BF, X_BF_line) <= settings_.largest_off_rad;
-  }
-
-  void Join(size_t k) {
-    constexpr double kFarthest = 1.0;  // rad; quicker than AreJoined
-    for (Node& node : layers_[k]) {
-      for (size_t i = 0; i < layers_[k - 1].size(); ++i) {
-        const Joints& q_from = layers_[k - 1][i].q;
-        if ((node.q - q_from).cwiseAbs().sum() < kFarthest && AreJoined(k, q_from, node.q))
-          node.from.push_back(static_cast<int>(i));
-      }
-    }
-  }
-
-  static void Extend(const Layer& before, Node& node) {
-    for (const int i : node.from) {
-      const Node& from = before[static_cast<size_t>(i)];
-      if (from.poses == 0) continue;
-      const double travel = from.travel_rad + (node.q - from.q).cwiseAbs().sum();
-      const bool better = from.poses + 1 > node.poses || (from.poses + 1 == node.poses && travel < node.travel_rad);
-      if (!better) continue;
-      node.poses = from.poses + 1;
-      node.travel_rad = travel;
-      node.before = i;
-    }
-  }
-
-  std::pair<std::pair<int, int>, JointChain> Trace(size_t k, const Node& last) const {
-    JointChain chain;
-    chain.travel_rad = last.travel_rad;
-    const Node* node = &last;
-    int number = static_cast<int>(&last - layers_[k].data());
-    while (true) {
-      chain.q.push_back(node->q);
-      if (node->before < 0) break;
-      number = node->before;
-      node = &layers_[--k][static_cast<size_t>(number)];
-    }
-    std::reverse(chain.q.begin(), chain.q.end());
-    chain.begin = static_cast<int>(k);
-    return std::make_pair(std::make_pair(static_cast<int>(k), number), std::move(chain));
-  }
-
-  const ArmModel& model_;
-  double step_s_;
-  ChainSettings settings_;
-  std::vector<Pose> X_BF_;
-  std::vector<Layer> layers_;
-};
-
-/// Why there is no chain of so many poses over free nodes.
-Verdict FindReason(const InverseKinematics& ik, Ladder& ladder, int wanted) {
-  if (ladder.FindLongest(ArmTouch::kUnknown) >= wanted) return Verdict::kBlockedByUnknown;
-  if (ladder.FindLongest(ArmTouch::kOccupied) >= wanted) return Verdict::kBlockedByObstacle;
-  if (ladder.FindLongest(ArmTouch::kSelf) >= wanted) return Verdict::kSelfCollision;
-  if (ladder.FindLongestRun() >= wanted) return Verdict::kSpeed;
+Verdict JointLadder::FindReason(int wanted) {
+  if (FindLongest(ArmTouch::kUnknown, wanted) >= wanted) return Verdict::kBlockedByUnknown;
+  if (FindLongest(ArmTouch::kOccupied, wanted) >= wanted) return Verdict::kBlockedByObstacle;
+  if (FindLongest(ArmTouch::kSelf, wanted) >= wanted) return Verdict::kSelfCollision;
+  if (FindLongestRun() >= wanted) return Verdict::kSpeed;
   int run = 0;
-  for (const Pose& X_BF : ladder.X_BF()) {
-    run = ik.IsInReach(X_BF) ? run + 1 : 0;
+  for (const Rung& rung : rungs_) {
+    run = ik_.IsInReach(X_BW_ * rung.X_WF) ? run + 1 : 0;
     if (run >= wanted) return Verdict::kJointLimit;
   }
   return Verdict::kNoInverseKinematics;
 }
 
-}  // namespace
+/// Chains over nodes that touch nothing worse than `worst`; returns the poses of the longest, if it has so many as are
+/// wanted.
+int JointLadder::FindLongest(ArmTouch worst, int wanted) {
+  Open(worst, wanted);
+  int longest = 0;
+  for (size_t k = 0; k < rungs_.size(); ++k) {
+    Rung& rung = rungs_[k];
+    if (rung.is_open) Solve(k);
+    for (Node& node : rung.nodes) {
+      node.poses = rung.is_open && IsUsable(rung, node, worst) ? 1 : 0;
+      node.before = -1;
+      node.travel_rad = 0.0;
+      if (node.poses > 0 && k > 0) Extend(k, node);
+      longest = std::max(longest, node.poses);
+    }
+  }
+  return longest;
+}
 
-ChainResult FindChains(const InverseKinematics& ik, const ArmCollision& collision, const Clearance& clearance,
-                       const std::vector<Pose>& X_WF, double step_s, int wanted, const ChainSettings& settings) {
-  Ladder ladder(ik, collision, clearance, X_WF, step_s, settings);
-  const int longest = ladder.FindLongest(ArmTouch::kFree);
-  if (longest >= wanted) return {ladder.Collect(longest), Verdict::kReachable};
-  return {{}, FindReason(ik, ladder, wanted)};
+/// The longest run of poses with any joint values at all.
+int JointLadder::FindLongestRun() {
+  int longest = 0;
+  int run = 0;
+  for (size_t k = 0; k < rungs_.size(); ++k) {
+    Solve(k);
+    run = rungs_[k].nodes.empty() ? 0 : run + 1;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+/// Opens the rungs that lie in a run of at least `wanted` where the sensor itself touches nothing worse.
+void JointLadder::Open(ArmTouch worst, int wanted) {
+  size_t first = 0;
+  for (size_t k = 0; k <= rungs_.size(); ++k) {
+    if (k < rungs_.size()) {
+      Rung& rung = rungs_[k];
+      if (worst < ArmTouch::kSelf && !rung.sensor) rung.sensor = collision_.FindSensorTouch(clearance_, rung.X_WF);
+      if (worst == ArmTouch::kSelf || *rung.sensor <= worst) continue;
+    }
+    const bool is_long = static_cast<int>(k - first) >= wanted;
+    for (; first < k; ++first) rungs_[first].is_open = is_long;
+    if (k < rungs_.size()) rungs_[k].is_open = false;
+    first = k + 1;
+  }
+}
+
+void JointLadder::Solve(size_t k) {
+  Rung& rung = rungs_[k];
+  if (std::exchange(rung.is_solved, true)) return;
+  std::vector<Joints> near;
+  if (k > 0) {
+    for (const Node& node : rungs_[k - 1].nodes) near.push_back(node.q);
+  }
+  for (const Joints& q : ik_.FindAll(X_BW_ * rung.X_WF, near)) {
+    const auto same =
+        std::find_if(rung.nodes.begin(), rung.nodes.end(), [&](const Node& other) { return AreTurned(q, other.q); });
+    const int place = same == rung.nodes.end() ? rung.places++ : same->place;
+    rung.nodes.push_back({q, place, 0, -1, 0.0});
+  }
+  rung.usable.resize(static_cast<size_t>(rung.places));
+}
+
+bool JointLadder::IsUsable(Rung& rung, const Node& node, ArmTouch worst) {
+  if (worst == ArmTouch::kSelf) return true;
+  Answer& usable = rung.usable[static_cast<size_t>(node.place)][static_cast<size_t>(worst)];
+  if (!usable) usable = !collision_.Touches(clearance_, node.q, worst);
+  return *usable;
+}
+
+bool JointLadder::IsJoined(size_t k, const Node& from, const Node& to) {
+  constexpr double kFarthest = 1.0;  // rad; quicker than CalcIsJoined
+  if ((to.q - from.q).cwiseAbs().sum() >= kFarthest) return false;
+  Rung& rung = rungs_[k];
+  rung.joined.resize(static_cast<size_t>(rungs_[k - 1].places) * static_cast<size_t>(rung.places));
+  Answer& joined =
+      rung.joined[static_cast<size_t>(from.place) * static_cast<size_t>(rung.places) + static_cast<size_t>(to.place)];
+  if (!joined) joined = CalcIsJoined(k, from.q, to.q);
+  return *joined;
+}
+
+bool JointLadder::CalcIsJoined(size_t k, const Joints& q_from, const Joints& q_to) const {
+  const ArmModel& model = ik_.model();
+  for (int j = 0; j < model.n(); ++j) {
+    if (std::abs(q_to[j] - q_from[j]) > model.joints[static_cast<size_t>(j)].max_rad_per_s * step_s_) return false;
+  }
+  const Pose X_BF = CalcFlangePose(model, 0.5 * (q_from + q_to));
+  const Pose X_BF_line = X_BW_ * Interpolate(rungs_[k - 1].X_WF, rungs_[k].X_WF, 0.5);
+  return (X_BF.translation() - X_BF_line.translation()).norm() <= settings_.largest_off_m &&
+         CalcAngleBetween(X_BF, X_BF_line) <= settings_.largest_off_rad;
+}
+
+void JointLadder::Extend(size_t k, Node& node) {
+  const std::vector<Node>& before = rungs_[k - 1].nodes;
+  for (size_t i = 0; i < before.size(); ++i) {
+    const Node& from = before[i];
+    if (from.poses == 0 || !IsJoined(k, from, node)) continue;
+    const double travel = from.travel_rad + (node.q - from.q).cwiseAbs().sum();
+    const bool better = from.poses + 1 > node.poses || (from.poses + 1 == node.poses && travel < node.travel_rad);
+    if (!better) continue;
+    node.poses = from.poses + 1;
+    node.travel_rad = travel;
+    node.before = static_cast<int>(i);
+  }
+}
+
+/// One chain of that length for each node that can begin one.
+std::vector<JointChain> JointLadder::Collect(int poses) const {
+  std::vector<JointChain> chains;
+  std::vector<std::pair<int, int>> begun;  // the first pose and its node
+  for (size_t k = 0; k < rungs_.size(); ++k) {
+    for (const Node& node : rungs_[k].nodes) {
+      if (node.poses != poses) continue;
+      int first = 0;
+      JointChain chain = Trace(k, node, first);
+      const std::pair<int, int> begin(chain.begin, first);
+      const auto known = std::find(begun.begin(), begun.end(), begin);
+      if (known == begun.end()) {
+        begun.push_back(begin);
+        chains.push_back(std::move(chain));
+      } else {
+        JointChain& other = chains[static_cast<size_t>(known - begun.begin())];
+        if (chain.travel_rad < other.travel_rad) other = std::move(chain);
+      }
+    }
+  }
+  std::stable_sort(chains.begin(), chains.end(),
+                   [](const JointChain& a, const JointChain& b) { return a.travel_rad < b.travel_rad; });
+  return chains;
+}
+
+/// The best chain that ends at a node of rung k; `first` gets the number of its first node.
+JointChain JointLadder::Trace(size_t k, const Node& last, int& first) const {
+  JointChain chain;
+  chain.travel_rad = last.travel_rad;
+  const Node* node = &last;
+  first = static_cast<int>(&last - rungs_[k].nodes.data());
+  while (true) {
+    chain.q.push_back(node->q);
+    if (node->before < 0) break;
+    first = node->before;
+    node = &rungs_[--k].nodes[static_cast<size_t>(first)];
+  }
+  std::reverse(chain.q.begin(), chain.q.end());
+  chain.begin = static_cast<int>(k);
+  return chain;
 }
 
 std::vector<Pose> MakeLine(const Pose& X_FS, const ScanPath& path, const ChainSettings& settings) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "common/kinematics/inverse_kinematics.h"
@@ -25,23 +27,73 @@ struct JointChain {
   int end() const { return begin + static_cast<int>(q.size()) - 1; }
 };
 
-/// Why a line cannot be followed, from what is fixed to what may change.
-struct ChainResult {
-  std::vector<JointChain> chains;         ///< The longest, one for each start that allows it, least travel first.
-  Verdict verdict = Verdict::kReachable;  ///< Without a chain of the wanted length: why.
-};
-
 /// Follows a line of flange poses with the joints: continuous inverse kinematics.
 ///
 /// At each pose all joint values (whole turns included) are nodes; two of neighbouring poses are joined if no joint
-/// jumps or turns faster than it can in `step_s`, and the flange stays on the line half-way. Along nodes that touch
-/// nothing the longest chains are found by dynamic programming, with the least travel of the joints.
+/// jumps or turns faster than it can in the time of a step, and the flange stays on the line half-way. Along nodes that
+/// touch nothing the longest chains are found by dynamic programming, with the least travel of the joints.
 ///
-/// @param X_WF     At even fractions of the line, at least two.
-/// @param step_s   From one pose to the next at the scan speed.
-/// @param wanted   A chain of fewer poses does not count.
-ChainResult FindChains(const InverseKinematics& ik, const ArmCollision& collision, const Clearance& clearance,
-                       const std::vector<Pose>& X_WF, double step_s, int wanted, const ChainSettings& settings = {});
+/// Everything is worked out when it is first asked for: where the sensor itself touches, no joint values are solved; no
+/// node is checked for collision that no chain of the wanted length can use. Keeps references to what it is made of.
+class JointLadder {
+ public:
+  /// @param X_WF    At even fractions of the line, at least two.
+  /// @param step_s  From one pose to the next at the scan speed.
+  JointLadder(const InverseKinematics& ik, const ArmCollision& collision, const Clearance& clearance,
+              const std::vector<Pose>& X_WF, double step_s, const ChainSettings& settings = {});
+
+  /// The longest chains that touch nothing, one for each start that allows it, least travel first; empty if they have
+  /// fewer poses than `wanted`.
+  std::vector<JointChain> FindChains(int wanted);
+
+  /// Why there is no chain of so many poses, from what is fixed to what may change.
+  ///
+  /// @pre FindChains found none.
+  Verdict FindReason(int wanted);
+
+ private:
+  static constexpr size_t kLevels = 3;  // of ArmTouch, but for the worst
+
+  /// Joint values at one pose of the line, with the best chain that ends there.
+  struct Node {
+    Joints q;
+    int place = 0;   ///< Nodes that differ by whole turns put the arm in the same place.
+    int poses = 0;   ///< Of the chain; 0: the node is not used.
+    int before = 0;  ///< Node of the pose before, on the chain; -1: it begins here.
+    double travel_rad = 0.0;
+  };
+  /// Nothing, or an answer that was worked out before.
+  using Answer = std::optional<bool>;
+  struct Rung {
+    Pose X_WF = Pose::Identity();
+    bool is_open = false;
+    std::optional<ArmTouch> sensor;
+    bool is_solved = false;
+    std::vector<Node> nodes;
+    int places = 0;
+    std::vector<std::array<Answer, kLevels>> usable;  ///< By place, then by what may be touched.
+    std::vector<Answer> joined;                       ///< Place of the rung before, times `places`, plus place.
+  };
+
+  int FindLongest(ArmTouch worst, int wanted);
+  int FindLongestRun();
+  void Open(ArmTouch worst, int wanted);
+  void Solve(size_t k);
+  bool IsUsable(Rung& rung, const Node& node, ArmTouch worst);
+  bool IsJoined(size_t k, const Node& from, const Node& to);
+  bool CalcIsJoined(size_t k, const Joints& q_from, const Joints& q_to) const;
+  void Extend(size_t k, Node& node);
+  std::vector<JointChain> Collect(int poses) const;
+  JointChain Trace(size_t k, const Node& last, int& first) const;
+
+  const InverseKinematics& ik_;
+  const ArmCollision& collision_;
+  const Clearance& clearance_;
+  double step_s_;
+  ChainSettings settings_;
+  Pose X_BW_;
+  std::vector<Rung> rungs_;
+};
 
 /// Flange poses at even fractions of a scan path, so many that no step is longer than the settings allow.
 std::vector<Pose> MakeLine(const Pose& X_FS, const ScanPath& path, const ChainSettings& settings = {});

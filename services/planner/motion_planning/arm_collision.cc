@@ -89,6 +89,26 @@ ArmTouch ArmCollision::FindTouch(const Clearance& clearance, const Joints& q) co
   return touch;
 }
 
+bool ArmCollision::Touches(const Clearance& clearance, const Joints& q, ArmTouch worst) const {
+  return FindTouch(clearance, q) > worst;
+}
+
+ArmTouch ArmCollision::FindSensorTouch(const Clearance& clearance, const Pose& X_WF) const {
+  ArmTouch touch = ArmTouch::kFree;
+  const size_t part = body_.parts().size() - 1;
+  const ArmPart& of = body_.parts()[part];
+  if (static_cast<int>(part) <= model_.n()) return touch;
+  const Pose X_WL = X_WF * model_.X_LF.inverse();
+  for (const Capsule& sphere : of.spheres) {
+    const Eigen::Vector3d p_W = X_WL * sphere.p_A;
+    const double reach = sphere.radius_m + margin_m_;
+    if (CalcFixedDistance(part, p_W) < reach) return ArmTouch::kSelf;
+    if (clearance.CalcUnknownDistance(p_W) < reach)
+      touch = std::max(touch, clearance.CalcObstacleDistance(p_W) < reach ? ArmTouch::kOccupied : ArmTouch::kUnknown);
+  }
+  return touch;
+}
+
 double ArmCollision::CalcFreeStep(const Clearance& clearance, const Joints& q, const Joints& way,
                                   double squeeze_m) const {
   LinkPoses X_BL;

@@ -29,6 +29,13 @@ class ArmCollision {
   /// What the arm comes nearer to than its margins.
   ArmTouch FindTouch(const Clearance& clearance, const Joints& q) const;
 
+  /// True if the arm touches something worse than `worst`. Looks no further than it must.
+  bool Touches(const Clearance& clearance, const Joints& q, ArmTouch worst) const;
+
+  /// What the sensor by itself touches, wherever the arm is: not better than FindTouch for any joint values that put
+  /// the flange there.
+  ArmTouch FindSensorTouch(const Clearance& clearance, const Pose& X_WF) const;
+
   /// Smallest distance of the arm from the voxel space's occupied and unknown cells, the table and the floor, the
   /// margin taken off, metres; negative: too near.
   double CalcSlack(const Clearance& clearance, const Joints& q) const;

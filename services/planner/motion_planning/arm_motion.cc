@@ -51,8 +51,7 @@ ArmMotion::ArmMotion(const RunConfig& config, const MotionSettings& settings)
 }
 
 PathCheck ArmMotion::CheckPath(const Clearance& clearance, const ScanPath& path) const {
-  const ArmReach reach = FindArmReach(arm_, clearance, path, reach_);
-  return {reach.verdict, reach.drives.empty() ? path : reach.drives.front().path};
+  return CheckArmPath(arm_, clearance, path, reach_);
 }
 
 RobotPosture ArmMotion::MakeStartPosture(const ScanPath&) const {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "services/planner/motion_planning/arm_chain.h"
+#include "services/planner/motion_planning/motion_backend.h"
 
 namespace nbs {
 
@@ -41,5 +42,10 @@ struct ArmSetup {
 /// limits, no inverse kinematics.
 ArmReach FindArmReach(const ArmSetup& arm, const Clearance& clearance, const ScanPath& path,
                       const ArmReachSettings& settings = {});
+
+/// The verdict of FindArmReach and the path of its first drive, without the other ways to drive it: rolls that cannot
+/// let a longer part be driven than those before are not looked at.
+PathCheck CheckArmPath(const ArmSetup& arm, const Clearance& clearance, const ScanPath& path,
+                       const ArmReachSettings& settings = {});
 
 }  // namespace nbs

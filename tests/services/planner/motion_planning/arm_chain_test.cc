@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "services/planner/motion_planning/arm_reach.h"
 #include "tests/common/kinematics/arms.h"
 #include "tests/services/planner/motion_planning/arm_cases.h"
@@ -17,16 +19,24 @@ ArmSetup MakeSetup(const RunConfig& config = MakeKr16Run()) {
 /// A path that the arm can follow as it stands.
 ScanPath MakeGoodPath() { return MakePathAbout(3.0); }
 
-ChainResult Follow(const ArmSetup& arm, const Clearance& world, const ScanPath& path, double speed = 0.05) {
+struct Following {
+  std::vector<JointChain> chains;
+  Verdict verdict = Verdict::kReachable;
+};
+
+Following Follow(const ArmSetup& arm, const Clearance& world, const ScanPath& path, double speed = 0.05) {
   const std::vector<Pose> line_WF = MakeLine(arm.X_FS, path);
   const int steps = static_cast<int>(line_WF.size()) - 1;
-  return FindChains(arm.ik, arm.collision, world, line_WF, path.length_m() / steps / speed, steps + 1);
+  JointLadder ladder(arm.ik, arm.collision, world, line_WF, path.length_m() / steps / speed);
+  std::vector<JointChain> chains = ladder.FindChains(steps + 1);
+  const Verdict verdict = chains.empty() ? ladder.FindReason(steps + 1) : Verdict::kReachable;
+  return {std::move(chains), verdict};
 }
 
 TEST(ArmChain, FollowsTheLineWithoutJumps) {
   const ArmSetup arm = MakeSetup();
   const ScanPath path = MakeGoodPath();
-  const ChainResult result = Follow(arm, MakeObjectWorld(), path);
+  const Following result = Follow(arm, MakeObjectWorld(), path);
   ASSERT_FALSE(result.chains.empty());
   const std::vector<Pose> line_WF = MakeLine(arm.X_FS, path);
   for (const JointChain& chain : result.chains) {
@@ -42,7 +52,7 @@ TEST(ArmChain, FollowsTheLineWithoutJumps) {
 }
 
 TEST(ArmChain, LeastTravelGoesFirst) {
-  const ChainResult result = Follow(MakeSetup(), MakeObjectWorld(), MakeGoodPath());
+  const Following result = Follow(MakeSetup(), MakeObjectWorld(), MakeGoodPath());
   for (size_t k = 1; k < result.chains.size(); ++k)
     EXPECT_LE(result.chains[k - 1].travel_rad, result.chains[k].travel_rad);
 }
@@ -92,6 +102,25 @@ TEST(ArmReach, PartOfAPathIsReachableWhenLookedAtAgain) {
   EXPECT_GT(part.length_m(), 0.15);
   EXPECT_LT(part.length_m(), path.length_m() - 0.1);
   EXPECT_EQ(FindArmReach(arm, world, part).verdict, Verdict::kReachable);
+}
+
+TEST(ArmReach, CheckFindsTheVerdictAndTheFirstOfAllDrives) {
+  const ArmSetup arm = MakeSetup();
+  BoxWorld world = MakeObjectWorld();
+  world.unknown.push_back(MakeBox({-0.15, -0.15, 0.2}, {0.15, 0.3, 0.4}));
+  std::set<Verdict> seen;
+  for (int i = 0; i < 60; ++i) {
+    const auto draw = [i](uint64_t k) { return CalcUniform({21, static_cast<uint64_t>(i), k}); };
+    const ScanPath path = MakePathAbout(6.28 * draw(0), 0.2 + 0.5 * draw(1), -0.2 + 0.6 * draw(2));
+    const ArmReach reach = FindArmReach(arm, world, path);
+    const PathCheck check = CheckArmPath(arm, world, path);
+    ASSERT_EQ(check.verdict, reach.verdict) << i;
+    const ScanPath& first = reach.drives.empty() ? path : reach.drives.front().path;
+    EXPECT_EQ(check.path.X_WS_start.matrix(), first.X_WS_start.matrix()) << i;
+    EXPECT_EQ(check.path.X_WS_end.matrix(), first.X_WS_end.matrix()) << i;
+    seen.insert(check.verdict);
+  }
+  EXPECT_GE(seen.size(), 4u);
 }
 
 TEST(ArmReach, EveryPathIsOfferedFromBothEnds) {
