@@ -114,6 +114,9 @@ struct TriangleScene::Embree {
 TriangleScene::TriangleScene(const TriangleMesh& mesh_W) {
   CheckMesh(mesh_W);
   embree_ = std::make_unique<Embree>(mesh_W);
+  for (const auto& triangle : mesh_W.triangles) {
+    for (const uint32_t v : triangle) box_W_.extend(mesh_W.vertices_W[v].cast<double>());
+  }
 }
 
 TriangleScene::~TriangleScene() = default;
@@ -224,6 +227,65 @@ std::optional<ClosestPoint> TriangleScene::FindClosestFacing(const Eigen::Vector
   rtcPointQuery(embree_->scene, &query, &context, &VisitTriangle, &search);
   if (!search.found) return std::nullopt;
   return search.best;
+}
+
+namespace {
+
+/// What a query for a solid's distance carries along.
+struct SolidSearch {
+  const Eigen::Vector3f* vertices = nullptr;
+  const std::array<uint32_t, 3>* triangles = nullptr;
+  const TriangleScene::SolidDistance* distance = nullptr;
+  double reach_m = 0.0;
+  double best_m = 0.0;
+  bool found = false;
+};
+
+/// A little more, so that rounding to float hides no triangle.
+float CalcQueryRadius(double radius_m) { return static_cast<float>(std::max(0.0, radius_m) * 1.00001 + 1e-7); }
+
+bool VisitForSolid(RTCPointQueryFunctionArguments* arguments) {
+  SolidSearch& search = *static_cast<SolidSearch*>(arguments->userPtr);
+  const auto& corners = search.triangles[arguments->primID];
+  const double distance_m =
+      (*search.distance)(search.vertices[corners[0]].cast<double>(), search.vertices[corners[1]].cast<double>(),
+                         search.vertices[corners[2]].cast<double>());
+  if (distance_m >= search.best_m) return false;
+  search.found = true;
+  search.best_m = distance_m;
+  arguments->query->radius = CalcQueryRadius(search.reach_m + distance_m);
+  return true;
+}
+
+}  // namespace
+
+std::optional<double> TriangleScene::FindDistance(const Eigen::Vector3d& p_W, double reach_m, double enough_m,
+                                                  const SolidDistance& distance) const {
+  if (embree_->triangles.empty() || box_W_.exteriorDistance(p_W) > reach_m + enough_m) return std::nullopt;
+  SolidSearch search{embree_->vertices.data(), embree_->triangles.data(), &distance, reach_m, enough_m, false};
+  RTCPointQuery query{};
+  query.x = static_cast<float>(p_W.x());
+  query.y = static_cast<float>(p_W.y());
+  query.z = static_cast<float>(p_W.z());
+  query.radius = CalcQueryRadius(reach_m + enough_m);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(embree_->scene, &query, &context, &VisitForSolid, &search);
+  if (!search.found) return std::nullopt;
+  return search.best_m;
+}
+
+bool TriangleScene::IsInside(const Eigen::Vector3d& p_W) const {
+  if (embree_->triangles.empty() || !box_W_.contains(p_W)) return false;
+  const double reach_m = 2.0 * box_W_.diagonal().norm();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      const Ray ray{p_W, sign * Eigen::Vector3d::Unit(axis)};
+      const RayHit hit = CastRay(ray, reach_m);
+      if (!hit.hit() || hit.normal_W.dot(ray.direction_W) <= 0.0) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace nbs

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -79,9 +80,27 @@ class TriangleScene {
   std::optional<ClosestPoint> FindClosestFacing(const Eigen::Vector3d& p_W, double radius_m,
                                                 const Eigen::Vector3d& normal_W, double min_cosine) const;
 
+  /// Distance of a triangle abc from some solid, metres.
+  using SolidDistance =
+      std::function<double(const Eigen::Vector3d& a_W, const Eigen::Vector3d& b_W, const Eigen::Vector3d& c_W)>;
+
+  /// Smallest distance of a solid from the scene; nullopt if no triangle is nearer than enough_m.
+  ///
+  /// @param p_W      A point such that all of the solid lies within reach_m of it.
+  /// @param distance  May be negative where the triangle reaches into the solid, by how deep.
+  std::optional<double> FindDistance(const Eigen::Vector3d& p_W, double reach_m, double enough_m,
+                                     const SolidDistance& distance) const;
+
+  /// True if the point sees the inside of the scene in all six directions of the axes: it lies in a closed mesh.
+  bool IsInside(const Eigen::Vector3d& p_W) const;
+
+  /// Around all triangles.
+  const Eigen::AlignedBox3d& box_W() const { return box_W_; }
+
  private:
   struct Embree;
   std::unique_ptr<Embree> embree_;
+  Eigen::AlignedBox3d box_W_;
 };
 
 }  // namespace nbs

@@ -1,5 +1,6 @@
 #include "common/bus/fold.h"
 
+#include <chrono>
 #include <exception>
 
 #include "common/messages/translate.h"
@@ -45,10 +46,14 @@ bool Fold::Step() {
   const std::optional<Message> message = queues_.Pop(stream);
   if (!message) return false;
   Outbox out;
+  const auto begin = std::chrono::steady_clock::now();
   node_.Handle(*message, out);
+  const auto busy = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin);
+  busy_ns_ += busy.count();
   Publish(std::move(out));
   Update([&](FoldProgress& progress) {
     ++progress.processed[stream];
+    progress.busy_us = busy_ns_ / 1000;
     progress.utime_us = CalcUtime(*message);
   });
   return true;

@@ -16,6 +16,7 @@ namespace nbs {
 struct FoldProgress {
   std::map<size_t, int64_t> processed;  ///< Messages folded in, by stream.
   int64_t utime_us = 0;                 ///< Of the last one.
+  int64_t busy_us = 0;                  ///< Wall-clock time in the node's Handle.
   size_t needs = Node::kNoInput;  ///< The stream whose next message it waits for or works on; kNoInput before the first
                                   ///< and when finished.
   bool recovering = false;
@@ -46,6 +47,7 @@ class Fold {
   Recorder& recorder_;
   InputQueues& queues_;
   std::function<void()> on_output_;
+  int64_t busy_ns_ = 0;
   mutable std::mutex mutex_;
   FoldProgress progress_;
 };

@@ -72,6 +72,9 @@ void ServiceRunner::Run() {
     fold_ended_ = true;
   });
   while (!stop_) Turn();
+  progress_ = fold_.progress();
+  const ServiceStatus last = MakeStatus();
+  status_record_.Close(last, EncodeStatus(last));
 }
 
 void ServiceRunner::Turn() {
@@ -174,6 +177,7 @@ ServiceStatus ServiceRunner::MakeStatus() const {
   status.run = setup_.run;
   status.number = statuses_;
   status.utime_us = progress_.utime_us;
+  status.busy_us = progress_.busy_us;
   status.service = setup_.service;
   status.pid = getpid();
   status.state = CalcState();

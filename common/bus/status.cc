@@ -51,6 +51,7 @@ void StatusFields(Wire& wire, Status& status) {
   wire.template Integer<int64_t>(status.run);
   wire.template Integer<int64_t>(status.number);
   wire.template Integer<int64_t>(status.utime_us);
+  wire.template Integer<int64_t>(status.busy_us);
   wire.String(status.service);
   wire.template Integer<int32_t>(status.pid);
   wire.Enum(status.state, kStates);

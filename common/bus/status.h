@@ -49,6 +49,7 @@ struct ServiceStatus {
   int64_t run = 0;
   int64_t number = 0;
   int64_t utime_us = 0;
+  int64_t busy_us = 0;  ///< Wall-clock time spent in folding messages.
   std::string service;
   int32_t pid = 0;
   ServiceState state = ServiceState::kStarting;

@@ -1,10 +1,16 @@
 #include "common/bus/status_record.h"
 
 namespace nbs {
+namespace {
+
+std::filesystem::path FindFile(const std::filesystem::path& run_folder, const std::string& service) {
+  return run_folder / "streams" / "status" / (StatusChannel(service) + ".lcm");
+}
+
+}  // namespace
 
 StatusRecord::StatusRecord(const std::filesystem::path& run_folder, const std::string& service)
-    : history_(run_folder / "streams" / "status" / (StatusChannel(service) + ".lcm"), StatusChannel(service),
-               History::Access::kAppend) {}
+    : history_(FindFile(run_folder, service), StatusChannel(service), History::Access::kAppend) {}
 
 void StatusRecord::Offer(const ServiceStatus& status, std::span<const uint8_t> encoded, Instant now) {
   constexpr std::chrono::seconds kPeriod{1};
@@ -12,6 +18,18 @@ void StatusRecord::Offer(const ServiceStatus& status, std::span<const uint8_t> e
   history_.Append(status.utime_us, encoded);
   last_ = now;
   last_state_ = status.state;
+}
+
+void StatusRecord::Close(const ServiceStatus& status, std::span<const uint8_t> encoded) {
+  history_.Append(status.utime_us, encoded);
+}
+
+std::optional<ServiceStatus> ReadLastStatus(const std::filesystem::path& run_folder, const std::string& service) {
+  const std::filesystem::path file = FindFile(run_folder, service);
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  const History history(file, StatusChannel(service), History::Access::kRead);
+  if (history.size() == 0) return std::nullopt;
+  return DecodeStatus(history.Read(history.size() - 1));
 }
 
 }  // namespace nbs

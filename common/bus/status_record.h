@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,8 @@
 
 namespace nbs {
 
-/// Keeps a service's heartbeats for the run's log, in RUN/streams/status: every change of state, and otherwise one a
-/// second.
+/// Keeps a service's heartbeats for the run's log, in RUN/streams/status: every change of state, otherwise one a
+/// second, and the last.
 class StatusRecord {
  public:
   /// @throws as History does.
@@ -20,10 +21,16 @@ class StatusRecord {
   /// @throws RunFailure if the disk is full.
   void Offer(const ServiceStatus& status, std::span<const uint8_t> encoded, Instant now);
 
+  /// The last one, which is kept in any case.
+  void Close(const ServiceStatus& status, std::span<const uint8_t> encoded);
+
  private:
   History history_;
   Instant last_{};
   ServiceState last_state_ = ServiceState::kStarting;
 };
+
+/// The last heartbeat that a service has left in a run folder; nullopt if there is none.
+std::optional<ServiceStatus> ReadLastStatus(const std::filesystem::path& run_folder, const std::string& service);
 
 }  // namespace nbs

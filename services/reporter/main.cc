@@ -8,23 +8,25 @@
 #include "common/bus/merge.h"
 #include "common/bus/offline.h"
 #include "common/bus/service_main.h"
+#include "common/bus/status_record.h"
 #include "common/runtime/error.h"
 #include "services/reporter/outputs.h"
+#include "services/reporter/run_traces.h"
 #include "services/reporter/truth.h"
-#include "sim/pose_error.h"
 
 namespace {
 
-/// Where the sensor truly was at all states of the robot.
-std::vector<nbs::Pose> ReadSensorPoses(const nbs::RunConfig& config) {
-  std::vector<nbs::Pose> poses_WS;
-  const nbs::PoseError error = nbs::PoseError::Make(config);
-  nbs::StreamReader reader(config.folder, nbs::StreamOf<nbs::RobotState>());
-  while (const auto message = reader.Next()) {
-    const auto& state = std::get<nbs::RobotState>(*message);
-    poses_WS.push_back(error.CalcTruePose(state.X_WF, state.utime_us) * config.cell.X_FS);
-  }
-  return poses_WS;
+template <typename T>
+std::vector<T> ReadAll(const nbs::RunConfig& config) {
+  std::vector<T> all;
+  nbs::StreamReader reader(config.folder, nbs::StreamOf<T>());
+  while (auto message = reader.Next()) all.push_back(std::get<T>(std::move(*message)));
+  return all;
+}
+
+std::optional<double> FindBusyTime(const nbs::RunConfig& config, const char* service) {
+  const auto status = nbs::ReadLastStatus(config.folder, service);
+  return status ? std::optional(1e-6 * static_cast<double>(status->busy_us)) : std::nullopt;
 }
 
 /// Exit code 0 if the outputs are written, whatever the end of the run; 1 on bad input; 2 otherwise.
@@ -35,7 +37,13 @@ int WriteOffline(const std::filesystem::path& run_folder) {
     nbs::ReporterNode reporter(config.grid, truth.MakeEvaluator(), nullptr);
     nbs::RunOffline(reporter, run_folder);
     nbs::MergeHistories(run_folder / "streams", run_folder / "bus.lcm");
-    nbs::WriteOutputs(config, reporter, truth.Find(reporter.mesh().MakeCompactMesh(), ReadSensorPoses(config)));
+    const auto motions = nbs::GroupMotions(ReadAll<nbs::Trajectory>(config), ReadAll<nbs::RobotState>(config),
+                                           ReadAll<nbs::Execution>(config));
+    nbs::Findings findings = truth.Find(reporter.mesh().MakeCompactMesh(), motions);
+    findings.time.mesh_s = FindBusyTime(config, "mesher");
+    findings.time.map_s = FindBusyTime(config, "voxelmap");
+    nbs::AddPlanning(reporter.record(), findings.time);
+    nbs::WriteOutputs(config, reporter, findings);
     return 0;
   } catch (const nbs::ConfigError& error) {
     std::cerr << "nbs-reporter: " << error.what() << "\n";

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/planning/method.h"
+#include "services/reporter/motion_html.h"
 #include "services/reporter/svg_plot.h"
 
 namespace nbs {
@@ -17,7 +18,8 @@ table { border-collapse: collapse; } th, td { padding: 3px 10px; text-align: rig
 th { background: #f3f3f3; } td.text, th.text { text-align: left; }
 .plots, .pictures { display: flex; flex-wrap: wrap; gap: 16px; } .plot { width: 580px; } .plot text { font: 11px sans-serif; }
 .grid { stroke: #e4e4e4; } figure { margin: 0; width: 290px; } figure img { width: 100%; } figcaption { text-align: center; color: #666; }
-.bad { color: #b00020; }
+.bad { color: #b00020; } .bar { text-align: left; width: 300px; } .bar span { display: inline-block; height: 0.8em; border-radius: 2px; }
+.note { color: #555; max-width: 60em; }
 )";
 
 /// What a verdict means and what becomes of the candidate.
@@ -88,7 +90,6 @@ std::string MakeSummary(const RunConfig& config, const RunRecord& record, double
                                   Percent(last.evaluation->coverage), Percent(last.evaluation->observable_coverage)));
       row("RMS error of the vertices", fmt::format("{:.3f} mm", 1e3 * last.evaluation->rmse_m));
     }
-    row("robot time", fmt::format("{:.0f} s", 1e-6 * static_cast<double>(last.scanned_utime_us)));
   }
   if (const auto mean_s = CalcMeanSelection(record)) row("mean selection", fmt::format("{:.3f} s", *mean_s));
   row("wall time", fmt::format("{:.1f} s", wall_s));
@@ -188,13 +189,6 @@ std::string MakeFindings(const Findings& findings) {
         "crack, or a gap of a few millimetres</td></tr>\n</table>\n",
         findings.remainder->seam_m);
   }
-  if (findings.contacts) {
-    html += fmt::format(
-        "<p{}>The sensor's body touched the true object in {} of {} states of the robot; nearest distance {:.1f} "
-        "mm.</p>\n",
-        findings.contacts->touching > 0 ? " class='bad'" : "", findings.contacts->touching, findings.contacts->states,
-        1e3 * findings.contacts->nearest_m);
-  }
   return html;
 }
 
@@ -222,6 +216,8 @@ std::string MakeReportHtml(const RunConfig& config, const RunRecord& record, con
     html += "<h2>Progress</h2>\n<div class='plots'>\n" + MakePlot(record, "scans", false) +
             MakePlot(record, "path length, m", true) + "</div>\n";
   }
+  html += MakeTimeTable(findings.time);
+  if (findings.motion) html += MakeMotionTable(*findings.motion);
   html += MakeFindings(findings);
   html += "<h2>Scans</h2>\n" + MakeScanTable(record);
   html += "<h2>What became of the candidates</h2>\n" + MakeVerdictTable(record);

@@ -35,6 +35,26 @@ ordered_json MakeRims(const Remainder& remainder) {
   return json;
 }
 
+ordered_json MakePlace(const std::optional<MotionPlace>& place) {
+  if (!place) return nullptr;
+  return {{"scan", place->scan}, {"time_s", 1e-6 * static_cast<double>(place->utime_us)}, {"body", place->body}};
+}
+
+ordered_json MakeMotionFaults(const MotionAudit& audit) {
+  ordered_json json = ordered_json::object();
+  for (int k = 0; k < kMotionFaults; ++k) {
+    const MotionFaultCount& fault = audit.faults[static_cast<size_t>(k)];
+    json[std::string(ToString(static_cast<MotionFault>(k)))] = {{"count", fault.count},
+                                                                {"first", MakePlace(fault.first)}};
+  }
+  return json;
+}
+
+ordered_json MakeTimeSplit(const TimeSplit& time) {
+  return {{"motion", time.motion_s},     {"scan", time.scan_s},           {"map", OrNull(time.map_s)},
+          {"mesh", OrNull(time.mesh_s)}, {"selection", time.selection_s}, {"planning", time.planning_s}};
+}
+
 ordered_json MakeScan(const ScanRecord& scan) {
   const bool selected = scan.mode != PlanMode::kFirst;
   ordered_json json;
@@ -88,9 +108,14 @@ std::string MakeReportJson(const RunConfig& config, const RunRecord& record, con
   json["triangles"] = from_last(&ScanRecord::triangles);
   json["wall_s"] = wall_s;
   json["refused_measurements"] = record.refused_measurements;
-  json["states"] = findings.contacts ? ordered_json(findings.contacts->states) : ordered_json(nullptr);
-  json["contacts"] = findings.contacts ? ordered_json(findings.contacts->touching) : ordered_json(nullptr);
-  json["nearest_mm"] = findings.contacts ? ordered_json(1e3 * findings.contacts->nearest_m) : ordered_json(nullptr);
+  json["robot_time_s"] =
+      findings.motion ? ordered_json(findings.time.motion_s + findings.time.scan_s) : ordered_json(nullptr);
+  json["time_split_s"] = MakeTimeSplit(findings.time);
+  json["states"] = findings.motion ? ordered_json(findings.motion->states) : ordered_json(nullptr);
+  json["contacts"] = findings.motion ? ordered_json(findings.motion->contacts) : ordered_json(nullptr);
+  json["nearest_mm"] = findings.motion && findings.motion->nearest ? ordered_json(1e3 * findings.motion->nearest_m)
+                                                                   : ordered_json(nullptr);
+  json["motion_faults"] = findings.motion ? MakeMotionFaults(*findings.motion) : ordered_json(nullptr);
   json["rims_m"] = findings.remainder ? MakeRims(*findings.remainder) : ordered_json(nullptr);
   json["missing"] = findings.remainder ? MakeMissing(*findings.remainder) : ordered_json(nullptr);
   json["last_verdicts"] = MakeVerdicts(record.last_verdicts);

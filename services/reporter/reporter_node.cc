@@ -55,6 +55,7 @@ void ReporterNode::Fold(const RunState& state) {
       record_.detail = state.detail;
       record_.failed = state.failed;
       record_.last_verdicts = current_.verdicts;
+      record_.last_timing = current_.timing;
       next_input_ = kNoInput;
       break;
   }

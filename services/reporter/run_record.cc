@@ -8,6 +8,15 @@ double CalcPathLength(const RunRecord& record) {
   return length_m;
 }
 
+void AddPlanning(const RunRecord& record, TimeSplit& split) {
+  const auto add = [&split](const PlanTiming& timing) {
+    split.selection_s += timing.update_s + timing.candidates_s + timing.gain_s;
+    split.planning_s += timing.motion_s;
+  };
+  for (const ScanRecord& scan : record.scans) add(scan.timing);
+  add(record.last_timing);
+}
+
 std::optional<double> CalcMeanSelection(const RunRecord& record) {
   double sum_s = 0.0;
   int count = 0;

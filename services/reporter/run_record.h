@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/planning/scan_path.h"
-#include "sim/contacts.h"
+#include "sim/motion_audit.h"
 #include "sim/remainder.h"
 
 namespace nbs {
@@ -49,16 +49,31 @@ struct RunRecord {
   bool failed = false;
   int64_t refused_measurements = 0;
   std::array<int, kVerdicts> last_verdicts{};  ///< Of the rounds after the last scan: why nothing more was scanned.
+  PlanTiming last_timing;                      ///< Of the same rounds.
+};
+
+/// Where the time of a run went, seconds: simulated robot time for motion and scan, time on the wall for the rest.
+struct TimeSplit {
+  double motion_s = 0.0;         ///< Between the scan paths.
+  double scan_s = 0.0;           ///< On them.
+  std::optional<double> map_s;   ///< Folding stripes into the voxel space.
+  std::optional<double> mesh_s;  ///< Folding them into the mesh.
+  double selection_s = 0.0;      ///< Candidates and their gain, of all rounds.
+  double planning_s = 0.0;       ///< Whether the robot can drive the candidates, and how.
 };
 
 /// What the truth says about a run that is over; empty where no truth is known.
 struct Findings {
   std::optional<Remainder> remainder;  ///< What the last mesh lacks; none without a scan.
-  std::optional<Contacts> contacts;    ///< Of the sensor's body with the true object, at every state of the robot.
+  std::optional<MotionAudit> motion;   ///< What the executed motions did.
+  TimeSplit time;
 };
 
 /// Length of all scan paths, metres (without the motions between them).
 double CalcPathLength(const RunRecord& record);
+
+/// Wall-clock time of all rounds of planning, in `selection_s` and `planning_s`; the rest is left as it is.
+void AddPlanning(const RunRecord& record, TimeSplit& split);
 
 /// Mean wall-clock duration of a selection, seconds; nullopt if no scan was selected (the first path is set
 /// beforehand).

@@ -23,7 +23,7 @@ struct Truth::Object {
   CoverageOracle oracle;
 };
 
-Truth::Truth(const RunConfig& config) : cell_(config.cell) {
+Truth::Truth(const RunConfig& config) : config_(config) {
   if (HasTruth(config)) object_ = std::make_shared<const Object>(LoadObject(config), config.cell);
 }
 
@@ -37,16 +37,19 @@ ReporterNode::Evaluator Truth::MakeEvaluator() const {
   };
 }
 
-Findings Truth::Find(const TriangleMesh& mesh_W, std::span<const Pose> poses_WS) const {
-  if (!object_) return {};
+Findings Truth::Find(const TriangleMesh& mesh_W, std::span<const ExecutedMotion> motions) const {
   Findings findings;
-  findings.contacts = FindContacts(TriangleScene(object_->mesh_W), cell_.sensor_body_S, poses_WS);
-  if (mesh_W.triangles.empty()) return findings;
+  MotionAuditor auditor(object_ ? object_->mesh_W : TriangleMesh{}, config_);
+  for (const ExecutedMotion& motion : motions) auditor.Look(motion);
+  findings.motion = auditor.audit();
+  findings.time.motion_s = auditor.audit().move_s;
+  findings.time.scan_s = auditor.audit().scan_s;
+  if (!object_ || mesh_W.triangles.empty()) return findings;
   RemainderSettings settings;
-  settings.profiler = cell_.profiler;
-  settings.table_z_m = cell_.table_z_m;
-  settings.body_S = cell_.sensor_body_S;
-  settings.body_margin_m = cell_.body_margin_m;
+  settings.profiler = config_.cell.profiler;
+  settings.table_z_m = config_.cell.table_z_m;
+  settings.body_S = config_.cell.sensor_body_S;
+  settings.body_margin_m = config_.cell.body_margin_m;
   findings.remainder = RemainderExplainer(object_->mesh_W, object_->oracle, settings).Explain(mesh_W);
   return findings;
 }

@@ -18,13 +18,15 @@ class Truth {
   /// Rates a mesh; an empty function if the run has no truth. May outlive this.
   ReporterNode::Evaluator MakeEvaluator() const;
 
+  /// What the truth says about a run that is over. Without a true object there is no remainder, and motions are looked
+  /// at for what does not need it.
+  ///
   /// @param mesh_W    The last mesh; without triangles there is no remainder.
-  /// @param poses_WS  Where the sensor truly was, at every state of the robot.
-  Findings Find(const TriangleMesh& mesh_W, std::span<const Pose> poses_WS) const;
+  Findings Find(const TriangleMesh& mesh_W, std::span<const ExecutedMotion> motions) const;
 
  private:
   struct Object;
-  CellConfig cell_;
+  RunConfig config_;
   std::shared_ptr<const Object> object_;  ///< None: the run has no truth.
 };
 

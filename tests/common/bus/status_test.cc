@@ -10,7 +10,7 @@ namespace nbs {
 namespace {
 
 ServiceStatus MakeStatus() {
-  ServiceStatus status{3, 12, 40000, "mesher", 4711, ServiceState::kReady, "STRIPE from sensor", {}, {}, {}};
+  ServiceStatus status{3, 12, 40000, 777, "mesher", 4711, ServiceState::kReady, "STRIPE from sensor", {}, {}, {}};
   status.inputs.push_back({"STRIPE", "sensor", true, 9, 8, 1, 2, 3, 4});
   status.outputs.push_back({"MESH", 5, 7, 4, 66000, 2, 1, "planner"});
   status.outputs.push_back({"MESH_SCAN", 1, 1, 1, 66000, 0, 0, ""});

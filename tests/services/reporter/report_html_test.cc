@@ -30,12 +30,24 @@ TEST(ReportHtml, EveryVerdictIsExplained) {
   for (int v = 0; v < kVerdicts; ++v) EXPECT_THAT(html, HasSubstr(std::string(ToString(static_cast<Verdict>(v)))));
 }
 
-TEST(ReportHtml, ContactsAreMarkedAsBad) {
+TEST(ReportHtml, FaultsOfMotionsAreMarkedAsBadAndNamedWithTheirPlace) {
   Findings findings;
-  findings.contacts = Contacts{120, 0, 0.02};
+  findings.motion.emplace();
+  findings.motion->states = 120;
   EXPECT_THAT(MakeReportHtml(RunConfig{}, RunRecord{}, findings, 1.0, {}), Not(HasSubstr("class='bad'")));
-  findings.contacts->touching = 1;
-  EXPECT_THAT(MakeReportHtml(RunConfig{}, RunRecord{}, findings, 1.0, {}), HasSubstr("class='bad'"));
+  findings.motion->faults[static_cast<size_t>(MotionFault::kJointLimit)] = {4, MotionPlace{6, 12'340'000, "joint_a3"}};
+  const std::string html = MakeReportHtml(RunConfig{}, RunRecord{}, findings, 1.0, {});
+  EXPECT_THAT(html, HasSubstr("class='bad'"));
+  EXPECT_THAT(html, HasSubstr("joint_a3, scan 7, at 12.34 s"));
+}
+
+TEST(ReportHtml, TimeIsSplitIntoTheRobotsAndTheComputers) {
+  Findings findings;
+  findings.time = {100.0, 41.5, 3.25, std::nullopt, 5.0, 6.0};
+  const std::string html = MakeReportHtml(RunConfig{}, RunRecord{}, findings, 1.0, {});
+  EXPECT_THAT(html, HasSubstr("2 min 21.5 s"));
+  EXPECT_THAT(html, HasSubstr("3.2 s"));
+  EXPECT_THAT(html, HasSubstr("mesh</td><td>-</td>"));
 }
 
 TEST(ReportHtml, EveryKindOfWhatIsMissingIsExplained) {

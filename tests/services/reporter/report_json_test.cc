@@ -65,7 +65,13 @@ TEST(ReportJson, WhatDoesNotApplyIsNull) {
 
 TEST(ReportJson, SaysWhatTheTruthSaysOrNull) {
   Findings findings;
-  findings.contacts = Contacts{120, 3, -0.002};
+  findings.motion.emplace();
+  findings.motion->states = 120;
+  findings.motion->contacts = 3;
+  findings.motion->nearest_m = -0.002;
+  findings.motion->nearest = MotionPlace{1, 2'000'000, "link_5"};
+  findings.motion->faults[static_cast<size_t>(MotionFault::kSpeed)] = {2, MotionPlace{1, 2'500'000, "joint_a4"}};
+  findings.time = {10.0, 20.0, 3.0, std::nullopt, 5.0, 6.0};
   findings.remainder.emplace();
   findings.remainder->missing[static_cast<size_t>(Missing::kBase)] = 0.25;
   findings.remainder->rim_m[static_cast<size_t>(Missing::kOccluded)] = 1.5;
@@ -77,8 +83,21 @@ TEST(ReportJson, SaysWhatTheTruthSaysOrNull) {
   EXPECT_EQ(json.at("missing").at("base"), 0.25);
   EXPECT_EQ(json.at("rims_m").at("occluded"), 1.5);
   EXPECT_EQ(json.at("rims_m").at("seam"), 0.5);
+  EXPECT_EQ(json.at("motion_faults").at("speed").at("count"), 2);
+  EXPECT_EQ(json.at("motion_faults").at("speed").at("first").at("scan"), 1);
+  EXPECT_EQ(json.at("motion_faults").at("speed").at("first").at("time_s"), 2.5);
+  EXPECT_EQ(json.at("motion_faults").at("speed").at("first").at("body"), "joint_a4");
+  EXPECT_TRUE(json.at("motion_faults").at("jump").at("first").is_null());
+  EXPECT_EQ(json.at("motion_faults").size(), static_cast<size_t>(kMotionFaults));
+  EXPECT_EQ(json.at("robot_time_s"), 30.0);
+  EXPECT_EQ(json.at("time_split_s").at("motion"), 10.0);
+  EXPECT_EQ(json.at("time_split_s").at("scan"), 20.0);
+  EXPECT_EQ(json.at("time_split_s").at("map"), 3.0);
+  EXPECT_TRUE(json.at("time_split_s").at("mesh").is_null());
+  EXPECT_EQ(json.at("time_split_s").at("selection"), 5.0);
+  EXPECT_EQ(json.at("time_split_s").at("planning"), 6.0);
   const auto without = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), {}, 12.5));
-  for (const char* key : {"states", "contacts", "nearest_mm", "rims_m", "missing"})
+  for (const char* key : {"states", "contacts", "nearest_mm", "motion_faults", "robot_time_s", "rims_m", "missing"})
     EXPECT_TRUE(without.at(key).is_null());
 }
 
