@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,7 +10,6 @@
 namespace nbs {
 namespace {
 
-constexpr double kMaxCells = 1e9;
 // A box that ends on a voxel's face to within this share of a voxel does not get one more layer.
 constexpr double kTolerance = 1e-6;
 
@@ -21,10 +22,11 @@ GridShape PlaceGrid(const Eigen::AlignedBox3d& box_W, double resolution_m) {
     const double last = std::ceil(box_W.max()[axis] / resolution_m - kTolerance);
     const double count = std::max(1.0, last - first);
     cells *= count;
-    if (!(cells <= kMaxCells)) {
-      throw ConfigError("the box around the object would take more than 1,000,000,000 voxels of " +
-                        std::to_string(resolution_m) +
-                        " m: is the object's unit metres, or should the cell's `resolution_m` be larger?");
+    if (!(cells <= static_cast<double>(kMaxGridCells))) {
+      throw ConfigError(
+          fmt::format("the box around the object would take more than {} voxels of {} m: is the object's "
+                      "unit metres, or should the cell's `resolution_m` be larger?",
+                      kMaxGridCells, resolution_m));
     }
     grid.origin_W[axis] = first * resolution_m;
     grid.size[axis] = static_cast<int>(count);

@@ -142,9 +142,10 @@ Field TransformZ(const Field& in, int reach) {
 }
 
 void CheckSettings(const DistanceFieldSettings& settings, double resolution_m) {
-  const bool good = settings.cells_per_block >= 1 && settings.cells_per_block <= 16 && settings.max_distance_m > 0.0 &&
-                    settings.max_distance_m <= 60.0 * settings.cells_per_block * resolution_m &&
-                    settings.free_max_probability > 0.0 && settings.free_max_probability < 0.95;
+  const bool good =
+      settings.cells_per_block >= 1 && settings.cells_per_block <= 16 && settings.max_distance_m > 0.0 &&
+      settings.max_distance_m <= DistanceField::kMaxReach_blocks * settings.cells_per_block * resolution_m &&
+      settings.free_max_probability > 0.0 && settings.free_max_probability < 0.95;
   if (good) return;
   throw std::invalid_argument("DistanceField: " + std::to_string(settings.cells_per_block) + " cells per block up to " +
                               std::to_string(settings.max_distance_m) +

@@ -26,8 +26,10 @@ struct DistanceFieldSettings {
 /// Theory of Computing 8, 2012, DOI 10.4086/toc.2012.v008a019 (the transform separates by axis).
 class DistanceField {
  public:
-  /// @throws std::invalid_argument if a setting is out of range: cells_per_block in [1, 16], max_distance_m at most 60
-  /// blocks and positive, probability in (0, 0.95).
+  static constexpr double kMaxReach_blocks = 60.0;
+
+  /// @throws std::invalid_argument if a setting is out of range: cells_per_block in [1, 16], max_distance_m positive
+  /// and at most kMaxReach_blocks, probability in (0, 0.95).
   DistanceField(const VoxelGrid& grid, Obstacles obstacles, const DistanceFieldSettings& settings = {});
 
   /// Distance in metres from a point to the nearest obstacle, in [0, max_distance_m]; never larger than the true one,

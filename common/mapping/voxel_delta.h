@@ -19,6 +19,9 @@ struct GridShape {
   bool operator==(const GridShape&) const = default;
 };
 
+/// Largest grid, cells: 512 cubed, 256 MiB of log-odds.
+inline constexpr int64_t kMaxGridCells = int64_t{512} * 512 * 512;
+
 /// Log-odds are kept in 1/1024 nat; this code means "never observed" (p = 0.5), apart from a known log-odds of 0.
 inline constexpr int16_t kUnobserved = -32768;
 inline constexpr double kLogOddsPerNat = 1024.0;

@@ -8,9 +8,6 @@
 
 namespace nbs {
 
-/// Largest grid, cells: 512 cubed, 256 MiB of log-odds.
-inline constexpr int64_t kMaxGridCells = int64_t{512} * 512 * 512;
-
 /// Smallest log-odds of an occupied cell: p >= 0.95 (section III-C), ceil(1024 ln(0.95 / 0.05)).
 inline constexpr int16_t kOccupiedLogOdds = 3016;
 

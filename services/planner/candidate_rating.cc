@@ -17,7 +17,8 @@ std::vector<double> CandidateRating::EstimateGains(std::span<const ScanPath> pat
   if (is_surface()) return view_.CalcGains(prediction_, paths, voxel_m_, context_.threads);
   std::vector<double> gains_nat;
   gains_nat.reserve(paths.size());
-  for (int64_t gain : gain_.CalcAll(*map_, paths, kSixtyFourth, context_.threads)) gains_nat.push_back(ToNats(gain));
+  for (int64_t gain : gain_.CalcAll(*map_, paths, context_.ranking, context_.threads))
+    gains_nat.push_back(ToNats(gain));
   return gains_nat;
 }
 

@@ -16,6 +16,7 @@ struct RatingContext {
   GainRule rule = GainRule::kSurface;
   bool by_gain = true;          ///< False: the order of class and position counts, and every gain is 0 (method B).
   double gain_reach_m = 0.025;  ///< For GainRule::kNearSurface.
+  GainSampling ranking = kSixtyFourth;
   int threads = 2;
   CellConfig cell;
 };

@@ -101,21 +101,6 @@ std::vector<int64_t> InformationGain::CalcAll(const GainMap& map, std::span<cons
   return gains;
 }
 
-std::vector<int64_t> InformationGain::CalcPerStripe(const GainMap& map, const ScanPath& path, int beam_step) const {
-  if (beam_step < 1) throw std::invalid_argument("InformationGain: a sampling step below 1");
-  const int stripes = CountStripes(path);
-  const int beams = static_cast<int>(beams_S_.size());
-  const int64_t sampled = CountSampled(beams, beam_step, CalcFirst(beams, beam_step));
-  Workspace workspace = MakeWorkspace(map);
-  std::vector<int64_t> gains;
-  gains.reserve(stripes);
-  for (int i = 0; i < stripes; ++i) {
-    const Pose X_WS = CalcStripePose(path, stripe_spacing_m_, i);
-    gains.push_back(Scale(CalcStripe(map, X_WS, beam_step, workspace), beams, sampled));
-  }
-  return gains;
-}
-
 Pose CalcStripePose(const ScanPath& path, double stripe_spacing_m, int i) {
   const double length = path.length_m();
   if (length <= 0.0) return path.X_WS_start;

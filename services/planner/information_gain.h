@@ -20,9 +20,7 @@ struct GainSampling {
 
 /// All beams: for the final choice.
 inline constexpr GainSampling kAllBeams = {1, 1};
-/// A sixteenth of the beams: for ranking.
-inline constexpr GainSampling kSixteenth = {4, 4};
-/// A sixty-fourth: for a first look at many.
+/// A sixty-fourth of the beams: for ranking.
 inline constexpr GainSampling kSixtyFourth = {8, 8};
 
 /// The information gain of scan paths (section III-D, eq. 2): the sum over all beams of a path, and over the cells
@@ -50,10 +48,6 @@ class InformationGain {
   /// The same of each path, evaluated by `threads` threads (>= 1); equal to Calc one by one.
   std::vector<int64_t> CalcAll(const GainMap& map, std::span<const ScanPath> paths, GainSampling sampling,
                                int threads) const;
-
-  /// Gain per stripe along the path, CountStripes entries, every `beam_step`-th beam scaled to all. With beam_step 1
-  /// their sum is Calc(map, path, kAllBeams).
-  std::vector<int64_t> CalcPerStripe(const GainMap& map, const ScanPath& path, int beam_step) const;
 
  private:
   /// What evaluating one path after the other needs again and again.

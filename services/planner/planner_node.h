@@ -19,8 +19,9 @@ struct PlannerSettings {
   /// A candidate that promises less is not worth a motion. Borders count little beside predicted surface (their strips
   /// have max_rim_share of it): 3 nat are a surface of 1 cm², or the borders of some gaps of 30 mm …
   double min_gain_nat = 3.0;
-  double min_hole_gain_nat = 0.1;  ///< … and a thirtieth of that where only holes are left.
-  double gain_reach_m = 0.025;     ///< For GainRule::kNearSurface.
+  double min_hole_gain_nat = 0.1;       ///< … and a thirtieth of that where only holes are left.
+  double gain_reach_m = 0.025;          ///< For GainRule::kNearSurface.
+  GainSampling ranking = kSixtyFourth;  ///< Beams by which the stack is ranked, where the rule counts beams.
   int threads = 2;
 };
 

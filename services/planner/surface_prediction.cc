@@ -65,7 +65,7 @@ void VisitBeams(const Profiler& profiler, const ScanPath& path, Visit&& visit) {
 }
 
 void CheckSettings(const SurfacePredictionSettings& s) {
-  const bool sound = s.cells_per_block >= 1 && s.depth_m > 0.0 && s.free_max_probability > 0.0 &&
+  const bool sound = s.block_m > 0.0 && s.depth_m > 0.0 && s.free_max_probability > 0.0 &&
                      s.free_max_probability < 0.95 && s.iterations >= 1 && s.relaxation > 0.0 && s.relaxation < 2.0 &&
                      s.look_weight >= 0.0 && s.max_looks >= 0 && s.rim_width_m > 0.0 && s.max_rim_share > 0.0 &&
                      s.missed_factor >= 0.0 && s.missed_factor <= 1.0 && s.missed_elsewhere >= 0.0 &&
@@ -76,7 +76,9 @@ void CheckSettings(const SurfacePredictionSettings& s) {
 }  // namespace
 
 SurfacePrediction::SurfacePrediction(const GridShape& shape, const SurfacePredictionSettings& settings)
-    : settings_(settings), shape_(MakeBlocks(shape, std::max(1, settings.cells_per_block))) {
+    : settings_(settings),
+      cells_per_block_(std::max(1, static_cast<int>(std::lround(settings.block_m / shape.resolution_m)))),
+      shape_(MakeBlocks(shape, cells_per_block_)) {
   CheckSettings(settings);
   stride_ = {1, shape_.size.x(), int64_t{shape_.size.x()} * shape_.size.y()};
   potential_.assign(shape_.cells(), -1.0f);
@@ -89,7 +91,7 @@ SurfacePrediction::SurfacePrediction(const GridShape& shape, const SurfacePredic
 
 int64_t SurfacePrediction::FindBlock(int64_t cell, const GridShape& cells) const {
   const int64_t row = cell / cells.size.x();
-  const int n = settings_.cells_per_block;
+  const int n = cells_per_block_;
   return shape_.Index(static_cast<int>(cell % cells.size.x()) / n + 1, static_cast<int>(row % cells.size.y()) / n + 1,
                       static_cast<int>(row / cells.size.y()) / n + 1);
 }

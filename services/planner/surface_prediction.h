@@ -21,7 +21,7 @@ struct SurfaceElement {
 };
 
 struct SurfacePredictionSettings {
-  int cells_per_block = 2;            ///< Edge of a block, voxels.
+  double block_m = 0.010;             ///< Edge of a block, rounded to whole voxels.
   double depth_m = 0.012;             ///< So far behind a measured point is inside of the object.
   double free_max_probability = 0.3;  ///< A voxel is known to be free up to this p.
   int iterations = 80;                ///< Sweeps of the relaxation a round; the next round goes on where it ended.
@@ -81,6 +81,7 @@ class SurfacePrediction {
   int64_t FindBlock(int64_t cell, const GridShape& cells) const;
 
   SurfacePredictionSettings settings_;
+  int cells_per_block_;
   GridShape shape_;
   std::array<int64_t, 3> stride_;  ///< Of a block's neighbours.
   std::vector<float> potential_;

@@ -1,5 +1,8 @@
 #include "sim/prepare/prepare.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -94,6 +97,19 @@ void CheckSize(const Eigen::AlignedBox3d& box_W, const std::string& object) {
   }
 }
 
+/// What all services together hold for a voxel (measured: services/voxelmap/README.md).
+constexpr int64_t kBytesPerVoxel = 20;
+
+void CheckMemory(const GridShape& grid, int64_t memory_bytes) {
+  const int64_t needed_bytes = kBytesPerVoxel * grid.cells();
+  if (needed_bytes <= memory_bytes) return;
+  throw ConfigError(
+      fmt::format("{} voxels of {} m around the object would take {:.1f} GB, and this machine has {:.1f} "
+                  "GB: choose a larger `resolution_m` in the cell.",
+                  grid.cells(), grid.resolution_m, 1e-9 * static_cast<double>(needed_bytes),
+                  1e-9 * static_cast<double>(memory_bytes)));
+}
+
 /// Different for every run; separates runs on one bus and reaches no result.
 int64_t MakeRunId(const std::string& name) {
   std::random_device device;
@@ -132,6 +148,8 @@ void KeepUrdf(RunConfig& config) {
 
 }  // namespace
 
+int64_t FindMemory() { return int64_t{sysconf(_SC_PHYS_PAGES)} * sysconf(_SC_PAGESIZE); }
+
 std::string ListMethods() {
   std::string list;
   for (std::string_view name : MethodNames()) {
@@ -160,6 +178,7 @@ RunConfig PrepareRun(const RunRequest& request) {
   const Eigen::AlignedBox3d box_W = CalcBoundingBox(LoadObject(config));
   CheckSize(box_W, request.object);
   ResolvePlacement(box_W, config);
+  CheckMemory(config.grid, request.memory_bytes);
   if (config.cell.arm) (void)ReadArm(config.cell.arm->urdf, config.cell.arm->base_link, config.cell.arm->flange_link);
   config.run_id = MakeRunId(config.name);
   MakeFolders(config.folder);

@@ -9,6 +9,9 @@
 
 namespace nbs {
 
+/// Memory of this machine, bytes.
+int64_t FindMemory();
+
 /// What the command line of a run says, as text and numbers; nothing checked yet.
 struct RunRequest {
   std::string object = "statue";  ///< Name or mesh file.
@@ -22,6 +25,7 @@ struct RunRequest {
   std::string rate = "max";   ///< max or realtime.
   std::filesystem::path out;  ///< The run folder to be made.
   std::string version;
+  int64_t memory_bytes = FindMemory();  ///< What the voxel space of all services must fit in.
 };
 
 /// The methods there are, a line each: name, and what ends a run of it: `completeness` of the mesh, `nothing_left` to

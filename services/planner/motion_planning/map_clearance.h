@@ -11,7 +11,8 @@ namespace nbs {
 /// beyond the distance fields' reach the distance to its box takes over.
 class MapClearance final : public Clearance {
  public:
-  explicit MapClearance(const VoxelGrid& grid, const DistanceFieldSettings& settings = {});
+  /// The fields have blocks of two cells, or of as many as they need to reach as far as ever in a finer grid.
+  explicit MapClearance(const VoxelGrid& grid);
 
   double CalcObstacleDistance(const Eigen::Vector3d& p_W) const override { return CalcDistance(to_occupied_, p_W); }
   double CalcUnknownDistance(const Eigen::Vector3d& p_W) const override { return CalcDistance(to_unknown_, p_W); }

@@ -30,8 +30,8 @@ struct Round {
     const Eigen::Vector3d down = -Eigen::Vector3d::UnitZ(), along = Eigen::Vector3d::UnitY();
     const ScanPath first{MakeLookPose({0.0, -0.1, 0.385}, down, along), MakeLookPose({0.0, 0.1, 0.385}, down, along)};
     searcher.Update(mode, {ball.mesh, ball.voxels, prediction, scan, first}, selection);
-    const RatingContext context{FindGainRule(config.gain).value(), FindMethod(config.method).by_gain, 0.025, 1,
-                                config.cell};
+    const RatingContext context{
+        FindGainRule(config.gain).value(), FindMethod(config.method).by_gain, 0.025, kSixtyFourth, 1, config.cell};
     const CandidateRating rating(context, ball.voxels, prediction);
     SelectionTools tools;
     tools.estimate_gains = [&](std::span<const ScanPath> paths) { return rating.EstimateGains(paths); };

@@ -164,9 +164,17 @@ TEST(SurfacePrediction, TheSameRoundsGiveTheSame) {
   ASSERT_EQ(a.elements().size(), b.elements().size());
 }
 
+TEST(SurfacePrediction, BlocksAreAsLargeInAFinerGrid) {
+  const GridShape coarse{Eigen::Vector3d::Zero(), 0.005, Eigen::Vector3i(40, 30, 20)};
+  const GridShape fine{Eigen::Vector3d::Zero(), 0.0025, Eigen::Vector3i(80, 60, 40)};
+  EXPECT_EQ(SurfacePrediction(fine).shape(), SurfacePrediction(coarse).shape());
+  const GridShape rough{Eigen::Vector3d::Zero(), 0.025, Eigen::Vector3i(8, 6, 4)};
+  EXPECT_EQ(SurfacePrediction(rough).shape().resolution_m, 0.025);
+}
+
 TEST(SurfacePrediction, SettingsOutOfRangeAreRefused) {
   const GridShape shape{Eigen::Vector3d::Zero(), 0.005, Eigen::Vector3i::Constant(4)};
-  EXPECT_THROW(SurfacePrediction(shape, {.cells_per_block = 0}), std::invalid_argument);
+  EXPECT_THROW(SurfacePrediction(shape, {.block_m = 0.0}), std::invalid_argument);
   EXPECT_THROW(SurfacePrediction(shape, {.relaxation = 2.0}), std::invalid_argument);
   EXPECT_THROW(SurfacePrediction(shape, {.missed_factor = 1.5}), std::invalid_argument);
   EXPECT_THROW(SurfacePrediction(shape, {.missed_elsewhere = -0.1}), std::invalid_argument);

@@ -46,6 +46,16 @@ TEST(MapClearance, NeitherDistanceExceedsTheTrueOne) {
   }
 }
 
+TEST(MapClearance, ReachesAsFarInAFinerGrid) {
+  for (const double resolution_m : {0.005, 0.00125, 0.0005}) {
+    VoxelGrid grid({Eigen::Vector3d::Zero(), resolution_m, Eigen::Vector3i(8, 8, 8)});
+    std::ranges::fill(grid.cells(), CalcLogOdds(0.99));
+    const MapClearance clearance(grid);
+    EXPECT_NEAR(clearance.CalcObstacleDistance({-0.2, 0.0, 0.0}), 0.2, 0.025);
+    EXPECT_LE(clearance.CalcObstacleDistance({-0.2, 0.0, 0.0}), 0.2);
+  }
+}
+
 TEST(MapClearance, TellsOccupiedFromUnknown) {
   const MapClearance clearance(MakeHalfScannedStatue(0.0));
   EXPECT_GT(clearance.CalcObstacleDistance({-0.14, 0, 0}), 0.1);
