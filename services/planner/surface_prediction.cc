@@ -151,16 +151,27 @@ void SurfacePrediction::FixKnown(const VoxelGrid& grid, const MeshReplica& mesh)
 }
 
 void SurfacePrediction::Relax() {
-  const auto omega = static_cast<float>(settings_.relaxation), look = static_cast<float>(settings_.look_weight);
+  struct Unknown {
+    uint32_t block;
+    float pull, share;  // Of the looks in vain, and of each neighbour in the mean.
+  };
+  std::vector<Unknown> unknown;
+  VisitInner(shape_, [&](int64_t block) {
+    if (fixed_[block] != 0) return;
+    const float pull = static_cast<float>(settings_.look_weight) *
+                       static_cast<float>(std::min<int>(looks_[block], settings_.max_looks));
+    unknown.push_back({static_cast<uint32_t>(block), pull, 1.0f / (6.0f + pull)});
+  });
+  const auto omega = static_cast<float>(settings_.relaxation);
   const int64_t x = stride_[0], y = stride_[1], z = stride_[2];
   float* u = potential_.data();
   for (int i = 0; i < settings_.iterations; ++i) {
-    VisitInner(shape_, [&](int64_t b) {
-      if (fixed_[b] != 0) return;
-      const float pull = look * static_cast<float>(std::min<int>(looks_[b], settings_.max_looks));
-      const float sum = u[b - x] + u[b + x] + u[b - y] + u[b + y] + u[b - z] + u[b + z] - pull;
-      u[b] += omega * (sum / (6.0f + pull) - u[b]);
-    });
+    for (const Unknown& here : unknown) {
+      const int64_t b = here.block;
+      // The neighbour that has just changed comes last: the processor need not wait for it.
+      const float sum = u[b + x] + u[b - y] + u[b + y] + u[b - z] + u[b + z] - here.pull + u[b - x];
+      u[b] += omega * (sum * here.share - u[b]);
+    }
   }
 }
 

@@ -20,15 +20,20 @@ bool IsInSight(const SurfacePrediction& prediction, const Eigen::Vector3f& from_
   const Eigen::Array3f start = (element_W - shape.origin_W.cast<float>()).array() / block_m;
   const Eigen::Array3f line = (from_W - element_W).array() / block_m;
   const float length = line.matrix().norm();
-  const float longest = line.abs().maxCoeff();
-  const std::span<const uint8_t> room = prediction.room();
+  const Eigen::Array3f along = line / length;
+  const float steps_per_room = 1.0f / along.abs().maxCoeff();
+  // Outside all is free: the line ends where it leaves the blocks.
+  const Eigen::Array3f way = (along < 0.0f).select(start, shape.size.cast<float>().array() - start) / along.abs();
+  const float end = std::min(length, way.minCoeff() - 1e-3f);
+  const uint8_t* room = prediction.room().data();
+  const auto row = static_cast<int64_t>(shape.size.x()), layer = row * shape.size.y();
   float done = kBlindBlocks;
-  while (done < length) {
-    const Eigen::Array3f at = start + line * (done / length);
-    if ((at < 0.0f).any() || (at >= shape.size.cast<float>().array()).any()) return true;  // Outside all is free.
-    const int64_t block = shape.Index(static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z()));
-    if (room[block] == 0) return false;
-    done += std::max(0.5f, static_cast<float>(room[block] - 1) * length / longest);
+  while (done < end) {
+    const auto x = static_cast<int>(start.x() + along.x() * done), y = static_cast<int>(start.y() + along.y() * done),
+               z = static_cast<int>(start.z() + along.z() * done);
+    const int free_blocks = room[z * layer + y * row + x] - 1;
+    if (free_blocks < 0) return false;
+    done += std::max(0.5f, static_cast<float>(free_blocks) * steps_per_room);
   }
   return true;
 }
