@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nbs {
 
@@ -46,35 +47,52 @@ double CalcBoxDistance(const Vector3d& p_C, const Vector3d& half) {
 }
 
 double CalcSegmentBoxDistance(const Vector3d& p_CA, const Vector3d& p_CB, const Vector3d& half) {
-  // The distance is convex along the line: golden section.
-  constexpr double kGolden = 0.6180339887498949;
-  constexpr int kSteps = 30;
   const Vector3d along = p_CB - p_CA;
-  const auto distance = [&](double share) { return CalcBoxDistance(p_CA + share * along, half); };
+  const auto out_at = [&](double share) -> Vector3d {
+    const Vector3d p = p_CA + share * along;
+    return p - p.cwiseMax(-half).cwiseMin(half);
+  };
+  // Half of the derivative of the squared distance: it rises, and is straight between the planes of the faces.
+  const auto slope_at = [&](double share) { return along.dot(out_at(share)); };
   double low = 0.0;
   double high = 1.0;
-  double best = std::min(distance(low), distance(high));
-  double left = high - kGolden * (high - low);
-  double right = low + kGolden * (high - low);
-  double at_left = distance(left);
-  double at_right = distance(right);
-  for (int step = 0; step < kSteps && best > 0.0; ++step) {
-    best = std::min({best, at_left, at_right});
-    if (at_left <= at_right) {
-      high = right;
-      right = left;
-      at_right = at_left;
-      left = high - kGolden * (high - low);
-      at_left = distance(left);
-    } else {
-      low = left;
-      left = right;
-      at_left = at_right;
-      right = low + kGolden * (high - low);
-      at_right = distance(right);
+  double at_low = slope_at(low);
+  if (!(at_low < 0.0)) return out_at(low).norm();
+  double at_high = slope_at(high);
+  if (!(at_high > 0.0)) return out_at(high).norm();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double face : {-half[axis], half[axis]}) {
+      const double share = (face - p_CA[axis]) / along[axis];
+      if (!(share > low && share < high)) continue;
+      const double slope = slope_at(share);
+      (slope < 0.0 ? low : high) = share;
+      (slope < 0.0 ? at_low : at_high) = slope;
     }
   }
-  return best;
+  const double rise = at_high - at_low;
+  return out_at(rise > 0.0 ? low - at_low * (high - low) / rise : low).norm();
+}
+
+double CalcBlockBoxDistance(const Block& block, const Vector3d& half) {
+  double smallest = std::numeric_limits<double>::infinity();
+  // Edges of a box about the origin of a frame, seen from the other's.
+  const auto lower = [&](const Vector3d& of, const Pose& X, const Vector3d& other) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int u = (axis + 1) % 3;
+      const int v = (axis + 2) % 3;
+      for (int edge = 0; edge < 4; ++edge) {
+        Vector3d p = of;
+        if ((edge & 1) != 0) p[u] = -p[u];
+        if ((edge & 2) != 0) p[v] = -p[v];
+        Vector3d q = p;
+        q[axis] = -q[axis];
+        smallest = std::min(smallest, CalcSegmentBoxDistance(X * p, X * q, other));
+      }
+    }
+  };
+  lower(block.half, block.X_LC, half);
+  if (smallest > 0.0) lower(half, block.X_LC.inverse(), block.half);
+  return smallest;
 }
 
 std::vector<Capsule> CoverBlock(const Block& block) {

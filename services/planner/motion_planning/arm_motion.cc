@@ -124,8 +124,7 @@ std::vector<Joints> ArmMotion::FindWay(const Clearance& clearance, const Joints&
     if (goals.size() < static_cast<size_t>(settings_.search_goals)) goals.push_back(goal.q.front());
   }
   JointWay way = FindJointWay(
-      model, q_from, goals, search,
-      [&](const Joints& q) { return arm_.collision.FindTouch(clearance, q) == ArmTouch::kFree; },
+      model, q_from, goals, search, [&](const Joints& q) { return arm_.collision.IsFree(clearance, q); },
       [&](const Joints& from, const Joints& to) { return arm_.collision.IsFreeMotion(clearance, from, to); });
   drive = way.goal;
   return way.q;
@@ -134,9 +133,9 @@ std::vector<Joints> ArmMotion::FindWay(const Clearance& clearance, const Joints&
 /// Off from where the map now says that the arm stands too near: a short motion of the sensor on which it comes no
 /// nearer than it stands.
 std::optional<Joints> ArmMotion::FindEscape(const Clearance& clearance, const Joints& q_now) const {
-  const double slack = arm_.collision.CalcSlack(clearance, q_now);
-  if (slack >= 0.0) return q_now;
-  if (slack + arm_.collision.margin_m() < 0.0) return std::nullopt;
+  const std::optional<double> squeeze_m = arm_.collision.FindSqueeze(clearance, q_now);
+  if (!squeeze_m) return std::nullopt;
+  if (*squeeze_m == 0.0) return q_now;
   const Pose X_BF = CalcFlangePose(arm_.ik.model(), q_now);
   const Pose X_BS = X_BF * arm_.X_FS;
   std::vector<Eigen::Vector3d> directions_B;
@@ -152,8 +151,7 @@ std::optional<Joints> ArmMotion::FindEscape(const Clearance& clearance, const Jo
       for (const Joints& q : arm_.ik.FindAll(X_BF_away, near)) {
         constexpr double kSmall_rad = 0.5;
         if ((q - q_now).cwiseAbs().maxCoeff() > kSmall_rad) continue;
-        if (arm_.collision.FindTouch(clearance, q) == ArmTouch::kFree &&
-            arm_.collision.IsFreeMotion(clearance, q_now, q, -slack))
+        if (arm_.collision.IsFree(clearance, q) && arm_.collision.IsFreeMotion(clearance, q_now, q, *squeeze_m))
           return q;
       }
     }

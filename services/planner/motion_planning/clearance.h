@@ -3,6 +3,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 
+#include "common/kinematics/arm_model.h"
+#include "common/mapping/distance_field.h"
+
 namespace nbs {
 
 /// How far a point is from what a body must not touch.
@@ -16,6 +19,18 @@ class Clearance {
   virtual double CalcObstacleDistance(const Eigen::Vector3d& p_W) const = 0;
   /// To the nearest cell that is occupied or unknown.
   virtual double CalcUnknownDistance(const Eigen::Vector3d& p_W) const = 0;
+
+  double CalcDistance(Obstacles obstacles, const Eigen::Vector3d& p_W) const {
+    return obstacles == Obstacles::kOccupied ? CalcObstacleDistance(p_W) : CalcUnknownDistance(p_W);
+  }
+
+  /// True if an obstacle lies nearer to the capsule's line than its radius. Here by the distances of points of the
+  /// line, 0.1 mm too near at most; exact where a class knows better.
+  virtual bool IsTouched(Obstacles obstacles, const Capsule& capsule_W) const;
+
+  /// True if an obstacle lies nearer than `margin_m` to the block, of which X_LC is X_WC. Here of the capsules that
+  /// cover it; exact where a class knows better.
+  virtual bool IsTouched(Obstacles obstacles, const Block& block_W, double margin_m) const;
 };
 
 /// No collision test at all, as in methods that do without.

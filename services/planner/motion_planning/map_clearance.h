@@ -4,11 +4,14 @@
 
 #include "common/mapping/distance_field.h"
 #include "services/planner/motion_planning/clearance.h"
+#include "services/planner/motion_planning/obstacle_pyramid.h"
 
 namespace nbs {
 
-/// Clearances in the probabilistic voxel space, as it is when the object is made. Outside of it everything is free, so
-/// beyond the distance fields' reach the distance to its box takes over.
+/// Clearances in the probabilistic voxel space. Outside of it everything is free, so beyond the distance fields' reach
+/// the distance to its box takes over. What is touched is decided by the cells.
+///
+/// Keeps a reference to the grid, which must stay as it was.
 class MapClearance final : public Clearance {
  public:
   /// The fields have blocks of two cells, or of as many as they need to reach as far as ever in a finer grid.
@@ -16,13 +19,20 @@ class MapClearance final : public Clearance {
 
   double CalcObstacleDistance(const Eigen::Vector3d& p_W) const override { return CalcDistance(to_occupied_, p_W); }
   double CalcUnknownDistance(const Eigen::Vector3d& p_W) const override { return CalcDistance(to_unknown_, p_W); }
+  bool IsTouched(Obstacles obstacles, const Capsule& capsule_W) const override;
+  bool IsTouched(Obstacles obstacles, const Block& block_W, double margin_m) const override;
 
  private:
+  const ObstaclePyramid& CellsOf(Obstacles obstacles) const {
+    return obstacles == Obstacles::kOccupied ? occupied_ : unknown_;
+  }
   double CalcDistance(const DistanceField& field, const Eigen::Vector3d& p_W) const;
 
   Eigen::AlignedBox3d box_W_;
   DistanceField to_occupied_;
   DistanceField to_unknown_;
+  ObstaclePyramid occupied_;
+  ObstaclePyramid unknown_;
 };
 
 }  // namespace nbs

@@ -38,7 +38,26 @@ TEST(ShapeDistance, OfLineAndBoxIsThatOfTheNearestSample) {
     double sampled = 10.0;
     for (int s = 0; s <= 1000; ++s) sampled = std::min(sampled, CalcBoxDistance(a + s * 0.001 * (b - a), half));
     EXPECT_NEAR(CalcSegmentBoxDistance(a, b, half), sampled, 1e-3);
-    EXPECT_LE(CalcSegmentBoxDistance(a, b, half), sampled + 1e-5);
+    EXPECT_LE(CalcSegmentBoxDistance(a, b, half), sampled + 1e-12);
+  }
+  // Along a face, in a point, across.
+  EXPECT_DOUBLE_EQ(CalcSegmentBoxDistance({-1, 0.5, 0}, {1, 0.5, 0}, half), 0.5 - half.y());
+  EXPECT_DOUBLE_EQ(CalcSegmentBoxDistance({0, 0, 1}, {0, 0, 1}, half), 1.0 - half.z());
+  EXPECT_EQ(CalcSegmentBoxDistance({-1, -1, -1}, {1, 1, 1}, half), 0.0);
+}
+
+TEST(ShapeDistance, OfBlockAndBoxIsThatOfTheirNearestPoints) {
+  const Vector3d half(0.3, 0.2, 0.1);
+  for (int i = 0; i < 300; ++i) {
+    Block block{MakePose(2.0 * MakeRandomPoint(21, i), Eigen::Quaterniond(0.3, 0.8, 0.1 * i, 0.4).normalized()),
+                {0.25, 0.1, 0.15}};
+    // Alternating projections.
+    Vector3d p = Vector3d::Zero(), q = p;
+    for (int k = 0; k < 3000; ++k) {
+      q = block.X_LC * Vector3d((block.X_LC.inverse() * p).cwiseMax(-block.half).cwiseMin(block.half));
+      p = q.cwiseMax(-half).cwiseMin(half);
+    }
+    EXPECT_NEAR(CalcBlockBoxDistance(block, half), (p - q).norm(), 1e-4) << i;
   }
 }
 

@@ -22,7 +22,7 @@ void ExpectSafe(const RunConfig& config, const Clearance& world, const RobotPost
   EXPECT_EQ(FindArmRefusal(result.trajectory, q_now, limits), "");
   for (int64_t time_us = 0; time_us <= result.trajectory.points.back().time_us; time_us += 5000) {
     const Joints q = CalcJointValues(result.trajectory, time_us);
-    ASSERT_GE(collision.CalcSlack(world, q), -0.5 * kArmSweepTolerance) << time_us;
+    ASSERT_TRUE(collision.IsFree(world, q, 0.5 * kArmSweepTolerance)) << time_us;
     LinkPoses X_BL;
     CalcLinkPoses(limits.model, q, X_BL);
     ASSERT_GE(collision.body().CalcSelfDistance(X_BL, 1.0), kSelfMargin - 0.5 * kArmSweepTolerance) << time_us;
@@ -170,9 +170,8 @@ TEST(ArmMotion, ArmWithinItsMarginBacksOffFirst) {
   // Something unknown has come up 70 mm in front of the sensor's housing.
   const Eigen::Vector3d p_W = now.X_WS * Eigen::Vector3d(0, 0.06, 0.012);
   world.unknown.push_back({p_W - Eigen::Vector3d::Constant(0.002), p_W + Eigen::Vector3d::Constant(0.002)});
-  ASSERT_LT(
-      ArmCollision(config, ReadKr16()).CalcSlack(world, Eigen::Map<const Eigen::VectorXd>(now.joints_rad.data(), 6)),
-      0.0);
+  ASSERT_FALSE(
+      ArmCollision(config, ReadKr16()).IsFree(world, Eigen::Map<const Eigen::VectorXd>(now.joints_rad.data(), 6)));
   const MotionResult result = planner.Plan(world, now, MakePathAbout(3.0, 0.47), 7);
   ASSERT_TRUE(result.found()) << ToString(result.verdict);
   EXPECT_EQ(FindArmRefusal(result.trajectory, Eigen::Map<const Eigen::VectorXd>(now.joints_rad.data(), 6),

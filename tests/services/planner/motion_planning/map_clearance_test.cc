@@ -57,7 +57,8 @@ TEST(MapClearance, ReachesAsFarInAFinerGrid) {
 }
 
 TEST(MapClearance, TellsOccupiedFromUnknown) {
-  const MapClearance clearance(MakeHalfScannedStatue(0.0));
+  const VoxelGrid grid = MakeHalfScannedStatue(0.0);
+  const MapClearance clearance(grid);
   EXPECT_GT(clearance.CalcObstacleDistance({-0.14, 0, 0}), 0.1);
   EXPECT_EQ(clearance.CalcUnknownDistance({-0.14, 0, 0}), 0.0);
   EXPECT_EQ(clearance.CalcObstacleDistance({0.1, 0, 0}), 0.0);
