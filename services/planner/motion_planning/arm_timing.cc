@@ -92,8 +92,8 @@ class Writer {
   void Add(double time_s, const Joints& q, bool scanning) {
     const Pose X_WF = X_WB_ * CalcFlangePose(model_, q);
     if (scanning) {
-      const double way_m =
-          ((X_WF * limits_.X_FS).translation() - (points_.back().X_WF * limits_.X_FS).translation()).norm();
+      const std::vector<double>& last = points_.back().joints_rad;
+      const double way_m = CalcSensorWay(Eigen::Map<const Eigen::VectorXd>(last.data(), model_.n()), q);
       late_s_ = std::max(late_s_, this->time_s() + way_m / limits_.flange.scan_m_per_s - time_s);
     }
     auto time_us = static_cast<int64_t>(std::ceil((time_s + late_s_) * 1e6));
@@ -110,6 +110,20 @@ class Writer {
   }
 
  private:
+  /// How far the sensor would come on the line in joint space if it were everywhere as fast as where it is fastest.
+  double CalcSensorWay(const Joints& q_from, const Joints& q_to) const {
+    constexpr int kPieces = 8;
+    double longest = 0.0;
+    Eigen::Vector3d p_last = (CalcFlangePose(model_, q_from) * limits_.X_FS).translation();
+    for (int k = 1; k <= kPieces; ++k) {
+      const Joints q = q_from + (static_cast<double>(k) / kPieces) * (q_to - q_from);
+      const Eigen::Vector3d p = (CalcFlangePose(model_, q) * limits_.X_FS).translation();
+      longest = std::max(longest, (p - p_last).norm());
+      p_last = p;
+    }
+    return kPieces * longest;
+  }
+
   const ArmModel& model_;
   const Pose& X_WB_;
   const ArmTimingLimits& limits_;

@@ -75,6 +75,27 @@ TEST_F(ArmTiming, ScanBeginsOnTheProfileClockAndTakesItsTime) {
   EXPECT_TRUE((points.end() - 2)->scanning);
 }
 
+TEST_F(ArmTiming, SensorIsNotTooFastBetweenThePointsEither) {
+  std::vector<Joints> scan = {approach_.back()};
+  for (const double turn : {0.1, -0.12, 0.14})
+    scan.push_back(scan.back() + turn * Joints::Unit(6, 1) - 0.3 * Joints::Unit(6, 2));
+  const std::vector<TrajectoryPoint> points =
+      MakeArmTrajectory(model_, Pose::Identity(), limits_, {scan.data(), 1}, scan, 1.0).points;
+  for (size_t i = 1; i < points.size(); ++i) {
+    constexpr int kPieces = 50;
+    const Joints q_from = Eigen::Map<const Eigen::VectorXd>(points[i - 1].joints_rad.data(), 6);
+    const Joints q_to = Eigen::Map<const Eigen::VectorXd>(points[i].joints_rad.data(), 6);
+    const double piece_s = 1e-6 * static_cast<double>(points[i].time_us - points[i - 1].time_us) / kPieces;
+    Eigen::Vector3d p_last = points[i - 1].X_WF.translation();
+    for (int k = 1; k <= kPieces; ++k) {
+      const Joints q = q_from + (static_cast<double>(k) / kPieces) * (q_to - q_from);
+      const Eigen::Vector3d p = CalcFlangePose(model_, q).translation();
+      EXPECT_LE((p - p_last).norm(), 0.0505 * piece_s + 1e-9) << i;
+      p_last = p;
+    }
+  }
+}
+
 TEST_F(ArmTiming, RestsAtEveryCornerOfTheApproach) {
   const std::vector<TrajectoryPoint> points = Make(approach_).points;
   const auto corner = std::find_if(points.begin(), points.end(), [&](const TrajectoryPoint& p) {
