@@ -80,6 +80,7 @@ std::vector<Candidate> CandidateSearcher::FindOverPrediction(PlanMode mode, cons
   std::vector<Candidate> candidates;
   SurfaceSearchSettings settings;
   settings.threads = threads_;
+  settings.could_drive = input.could_drive;
   for (const ScanPath& path : FindSurfacePaths(input.prediction, SurfaceView(config_.cell.profiler),
                                                config_.cell.profiler, config_.grid.resolution_m, settings)) {
     candidates.push_back({.source = holes ? CandidateSource::kHole : CandidateSource::kBoundary,

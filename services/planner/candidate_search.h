@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "common/config/run_config.h"
@@ -17,6 +18,7 @@ struct SearchInput {
   const SurfacePrediction& prediction;
   int32_t newest_scan;  ///< Last scan folded in; -1 before the first.
   ScanPath newest_path;
+  std::function<bool(const ScanPath&)> could_drive;  ///< As in SurfaceSearchSettings.
 };
 
 /// Keeps the stack of candidates after the mode of the round and the run's method (Fig. 2, sections III-A, III-B).

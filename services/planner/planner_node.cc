@@ -131,7 +131,11 @@ ScanSelection::Result PlannerNode::Select(const PlanRequest& request, PlanTiming
   timing.update_s = clock_() - update_start_s;
   {
     Stopwatch watch(clock_, timing.candidates_s);
-    searcher_.Update(request.mode, {mesh_, voxels_, prediction_, newest_scan_, newest_path_}, selection_);
+    const auto could_drive = [this](const ScanPath& path) { return motion_.CouldDrive(path); };
+    searcher_.Update(request.mode,
+                     {mesh_, voxels_, prediction_, newest_scan_, newest_path_,
+                      method_.collision_test ? could_drive : std::function<bool(const ScanPath&)>()},
+                     selection_);
   }
   return selection_.Select(MakeTools(request, *clearance, rating, timing), FindMinGain(request.mode));
 }

@@ -35,6 +35,23 @@ std::vector<uint32_t> ChooseSeeds(std::span<const SurfaceElement> elements, doub
   return seeds;
 }
 
+/// The path straight on over a strip if the robot could drive it, otherwise those from aside that it could.
+void AddDrivable(const Strip& strip, double standoff_m, const SurfaceSearchSettings& settings,
+                 std::vector<ScanPath>& paths) {
+  constexpr double kSlant_rad = 0.45;
+  const auto add = [&](const Tilt& tilt) {
+    const ScanPath path = MakeStripPath(strip, tilt, standoff_m, settings.limits);
+    if (settings.could_drive && !settings.could_drive(path)) return false;
+    paths.push_back(path);
+    return true;
+  };
+  if (add({})) return;
+  for (const double angle_rad : {kSlant_rad, -kSlant_rad, 2.0 * kSlant_rad, -2.0 * kSlant_rad}) {
+    add({angle_rad, 0.0});
+    add({0.0, angle_rad});
+  }
+}
+
 /// The paths over the patch around a seed.
 void AddSeedPaths(std::span<const SurfaceElement> elements, const SurfaceElement& seed, double standoff_m,
                   const SurfaceSearchSettings& settings, std::vector<ScanPath>& paths) {
@@ -61,7 +78,7 @@ void AddSeedPaths(std::span<const SurfaceElement> elements, const SurfaceElement
     if (std::abs(along_W.dot(normal_W)) > 0.5) continue;  // A patch without extent has the normal for an axis.
     for (double extent_m : {settings.short_m, settings.long_m}) {
       const Strip strip{seed.p_W.cast<double>() + mean_W, normal_W, along_W, extent_m};
-      paths.push_back(MakeStripPath(strip, {}, standoff_m, settings.limits));
+      AddDrivable(strip, standoff_m, settings, paths);
     }
   }
 }
@@ -148,8 +165,10 @@ std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, cons
     double scale = 1.0;
     for (int round = 0; round < settings.rounds; ++round) {
       std::vector<ScanPath> moved;
-      for (int move = 0; move < kMoves; ++move)
-        moved.push_back(Move(best.path, move, scale, profiler.standoff_m, settings.limits));
+      for (int move = 0; move < kMoves; ++move) {
+        const ScanPath path = Move(best.path, move, scale, profiler.standoff_m, settings.limits);
+        if (!settings.could_drive || settings.could_drive(path)) moved.push_back(path);
+      }
       const double gain_before = best.gain_nat;
       for (const Proposal& trial : rate(moved, 1)) {
         if (trial.gain_nat > kNearlyAsGood * gain_before) proposals.push_back(trial);

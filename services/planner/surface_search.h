@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "services/planner/candidate_path.h"
@@ -19,15 +20,16 @@ struct SurfaceSearchSettings {
   double alike_m = 0.02;         ///< Candidates nearer than this and …
   double alike_rad = 0.12;       ///< … turned by less than this are one.
   int threads = 2;
+  std::function<bool(const ScanPath&)> could_drive;  ///< Other paths are not proposed; empty: all could be driven.
 };
 
 /// Proposes scan paths over the predicted surface (the boundary search of section III-A with the prediction in the
 /// place of the quadratic patch).
 ///
 /// Seeds are spread over the elements. Around each the path runs along the first or second principal axis of the patch,
-/// looks along its mean normal and keeps the working stand-off. The best proposals are then improved: shifted, turned,
-/// lengthened, moved nearer or away, as long as the gain grows. All that come near the best stay candidates, because
-/// the robot may not reach the best.
+/// looks along its mean normal and keeps the working stand-off; where the robot could not be, it looks from aside. The
+/// best proposals are then improved: shifted, turned, lengthened, moved nearer or away, as long as the gain grows. All
+/// that come near the best stay candidates, because the robot may not reach the best.
 ///
 /// @returns Unlike paths by falling gain; of equals the earlier proposal first.
 std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, const SurfaceView& view,

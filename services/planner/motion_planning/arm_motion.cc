@@ -1,6 +1,7 @@
 #include "services/planner/motion_planning/arm_motion.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "common/kinematics/urdf_reader.h"
 #include "common/runtime/error.h"
@@ -40,6 +41,25 @@ ArmTimingLimits MakeArmLimits(const CellConfig& cell, const ArmModel& model) {
   return limits;
 }
 
+std::string Explain(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNoInverseKinematics:
+      return "it is out of the arm's reach";
+    case Verdict::kJointLimit:
+      return "only beyond the limits of the joints would the arm reach it";
+    case Verdict::kSpeed:
+      return "a joint would have to jump on it, or turn faster than it can";
+    case Verdict::kSelfCollision:
+      return "the arm would touch itself, the table or the floor";
+    case Verdict::kBlockedByUnknown:
+      return "it comes too near to the box that is unknown";
+    case Verdict::kNoMotion:
+      return "no way to it was found that is free";
+    default:
+      return std::string(ToString(verdict));
+  }
+}
+
 }  // namespace
 
 ArmMotion::ArmMotion(const RunConfig& config, const MotionSettings& settings)
@@ -52,6 +72,23 @@ ArmMotion::ArmMotion(const RunConfig& config, const MotionSettings& settings)
 
 PathCheck ArmMotion::CheckPath(const Clearance& clearance, const ScanPath& path) const {
   return CheckArmPath(arm_, clearance, path, reach_);
+}
+
+/// As it stands or rolled by half a turn, the two rolls that are tried first (arm_reach.h).
+bool ArmMotion::CouldDrive(const ScanPath& path) const {
+  const NothingSolid nothing;
+  const Pose X_SR(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  const auto could_be_at = [&](const Pose& X_WS) {
+    return std::ranges::any_of(
+        arm_.ik.FindAll(arm_.collision.X_WB().inverse() * X_WS * arm_.X_FS.inverse()),
+        [&](const Joints& q) { return arm_.collision.FindTouch(nothing, q) == ArmTouch::kFree; });
+  };
+  const auto could_follow = [&](const Pose& X_SR_roll) {
+    const Pose X_WS_middle = Interpolate(path.X_WS_start, path.X_WS_end, 0.5);
+    return could_be_at(X_WS_middle * X_SR_roll) && could_be_at(path.X_WS_start * X_SR_roll) &&
+           could_be_at(path.X_WS_end * X_SR_roll);
+  };
+  return could_follow(Pose::Identity()) || could_follow(X_SR);
 }
 
 RobotPosture ArmMotion::MakeStartPosture(const ScanPath&) const {
@@ -72,7 +109,8 @@ std::string ArmMotion::FindStartFault(const Clearance& clearance, const ScanPath
   }
   const MotionResult first = Plan(clearance, MakeStartPosture(first_path), first_path, 0);
   if (first.found()) return {};
-  return "the first scan path cannot be driven: " + std::string(ToString(first.verdict));
+  return "the first scan path cannot be driven, " + Explain(first.verdict) +
+         ": move the arm's base (X_OB) or the path (first_view_W, first_standoff_m)";
 }
 
 MotionResult ArmMotion::Plan(const Clearance& clearance, const RobotPosture& now, const ScanPath& path,

@@ -40,6 +40,8 @@ class MotionBackend {
  public:
   virtual ~MotionBackend() = default;
   virtual PathCheck CheckPath(const Clearance& clearance, const ScanPath& path) const = 0;
+  /// False if the robot could not be at one end of the path, or in its middle, even in empty space.
+  virtual bool CouldDrive(const ScanPath& /*path*/) const { return true; }
   virtual MotionResult Plan(const Clearance& clearance, const RobotPosture& now, const ScanPath& path,
                             uint64_t seed) const = 0;
   /// Where the robot is before its first motion.

@@ -36,6 +36,10 @@ class MotionPlanner {
   /// @throws std::invalid_argument if a pose is not rigid.
   [[nodiscard]] PathCheck CheckPath(const Clearance& clearance, const ScanPath& path) const;
 
+  /// Whether the robot could be at both ends and in the middle of the path if space were empty but for what the cell
+  /// puts there: a first sieve, much cheaper than CheckPath. A free-flying sensor always could.
+  [[nodiscard]] bool CouldDrive(const ScanPath& path) const { return backend_->CouldDrive(path); }
+
   /// Where the robot is before its first motion: the cell's joint values, or at the start of the first path.
   RobotPosture MakeStartPosture(const ScanPath& first_path) const;
 
