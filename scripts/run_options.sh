@@ -66,16 +66,28 @@ software_version() {
   printf '%s%s\n' "$version" "${commit:+ ($commit)}"
 }
 
-# prepare_run: checks the options and makes the run folder with run.yaml; sets nbs_run.
+# discard_run FOLDER EXISTED: leaves of a run that cannot begin what was there before: nothing, or an empty folder.
+discard_run() {
+  rm -rf "$1"
+  [[ -z $2 ]] || mkdir "$1"
+}
+
+# prepare_run: checks the options, makes the run folder with run.yaml, and has the planner check that the robot can begin; sets nbs_run.
 prepare_run() {
   check_space "$(canonical "${run_out:-$nbs_runs}")"
-  local made=
+  local made= existed=
   if [[ -z $run_out ]]; then
     run_out=$(default_out)
     made=$run_out
+  elif [[ -e $run_out ]]; then
+    existed=yes
   fi
   if ! "$nbs_bin/nbs-prepare" "${nbs_prepare_options[@]}" --out "$run_out" --version "$(software_version)"; then
     [[ -z $made ]] || rm -rf "$made"
+    exit 1
+  fi
+  if ! "$nbs_bin/nbs-planner" --run "$run_out" --check; then
+    discard_run "$run_out" "$existed"
     exit 1
   fi
   nbs_run=$(canonical "$run_out")

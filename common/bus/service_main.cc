@@ -20,6 +20,7 @@ struct ServiceOptions {
   std::string lcm_url;
   std::vector<std::string> without;
   bool exit_when_finished = false;
+  bool check = false;
   double drop = 0.0;
   uint64_t drop_seed = 1;
 };
@@ -34,6 +35,7 @@ std::optional<int> ReadOptions(const std::string& service, int argc, char** argv
       ->delimiter(',');
   app.add_flag("--exit-when-finished", options.exit_when_finished,
                "End once all is done, instead of serving repair until stopped");
+  app.add_flag("--check", options.check, "Only check that the run can begin, and end");
   app.add_option("--drop", options.drop, "Test only: share of datagrams to lose, 0 to 1")->check(CLI::Range(0.0, 1.0));
   app.add_option("--drop-seed", options.drop_seed, "Test only: which datagrams are lost");
   try {
@@ -82,6 +84,7 @@ int RunService(std::string_view service_name, int argc, char** argv, const NodeF
   try {
     const RunConfig config = ReadRunConfig(options.run_folder);
     const std::unique_ptr<Node> node = make_node(config);
+    if (options.check) return 0;
     const std::unique_ptr<Transport> transport = MakeTransport(options);
     const bool paced = service == "robot" && config.realtime;
     ServiceRunner runner(

@@ -18,7 +18,8 @@ using NodeFactory = std::function<std::unique_ptr<Node>(const RunConfig&)>;
 /// Options: --run DIR (required); --lcm-url URL (default: LCM_DEFAULT_URL); --without A,B (services that do not take
 /// part: their credit is not waited for);
 /// --exit-when-finished (ends once the node has finished and its outputs have been received); --drop P --drop-seed N
-/// (test only: loses that share of datagrams).
+/// (test only: loses that share of datagrams); --check (makes the node, which refuses what it cannot begin with, and
+/// ends).
 ///
 /// @param service  Name in the wiring table; decides which streams are read and published.
 /// @returns The exit code: 0 finished or stopped by a signal; 1 bad input, in one sentence on stderr; 2 failed.

@@ -2,11 +2,14 @@
 
 import itertools
 import os
+import pathlib
+import re
 import subprocess
+import tempfile
 import unittest
 
 from blob import encode_ply, make_blob
-from run_testing import WholeRunTest
+from run_testing import SOURCE, WholeRunTest
 
 
 class BadInput(WholeRunTest):
@@ -97,6 +100,67 @@ class BadInput(WholeRunTest):
                               ("--completeness", "98.75"), ("--completeness", "nan"), ("--completeness", "0"), ("--rate", "fast")):
             with self.subTest(f"{option} {value}"):
                 self.assert_refused("--object", self.blob, option, value, says=value)
+
+    def write_cell(self, urdf=(), cell=()):
+        """The robot cell with some of its text replaced: pairs (what, by what); in the URDF by regular expressions."""
+        cells = SOURCE / "sim/cells"
+        folder = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
+        text = (cells / "kr16.urdf").read_text()
+        for what, by in urdf:
+            text, count = re.subn(what, by, text, flags=re.DOTALL)
+            self.assertTrue(count, what)
+        (folder / "kr16.urdf").write_text(text)
+        text = (cells / "kr16.yaml").read_text()
+        for what, by in cell:
+            self.assertIn(what, text)
+            text = text.replace(what, by)
+        (folder / "cell.yaml").write_text(text)
+        return folder / "cell.yaml"
+
+    def assert_cell_refused(self, says, **changes):
+        self.assert_refused("--object", self.blob, "--cell", self.write_cell(**changes), says=says)
+
+    def test_robot_cell_as_it_stands_begins(self):
+        self.finish(self.start("scan", "--object", self.blob, "--cell", self.write_cell(), "--max-scans", 1, "--out", self.folder / "begins"))
+
+    def test_urdf_that_is_missing_or_malformed_is_refused(self):
+        self.assert_cell_refused(["nothing.urdf"], cell=[("kr16.urdf ", "nothing.urdf ")])
+        self.assert_cell_refused(["kr16.urdf:", "no valid XML"], urdf=[("</robot>", "")])
+        self.assert_cell_refused(["kr16.urdf", "robot"], urdf=[("<robot name", "<machine name"), ("</robot>", "</machine>")])
+        self.assert_cell_refused(["kr16.urdf", "link_9"], urdf=[('<child link="link_3"/>', '<child link="link_9"/>')])
+
+    def test_urdf_without_limits_or_speeds_is_refused(self):
+        self.assert_cell_refused(["kr16.urdf", "joint_a3", "limits"], urdf=[(r'(<joint name="joint_a3".*?)<limit[^>]*/>', r"\1")])
+        self.assert_cell_refused(["kr16.urdf", "joint_a3", "velocity"], urdf=[(r'(<joint name="joint_a3".*?<limit[^>]*) velocity="[^"]*"', r"\1")])
+        self.assert_cell_refused(["kr16.urdf", "joint_a3", "lower"], urdf=[(r'(<joint name="joint_a3".*?<limit[^>]*) lower="[^"]*"', r"\1")])
+
+    def test_urdf_without_collision_bodies_is_refused(self):
+        self.assert_cell_refused(["kr16.urdf", "link_4", "collision body"], urdf=[(r'(<link name="link_4">).*?(</link>)', r"\1\2")])
+        self.assert_cell_refused(["kr16.urdf", "link_4", "collision"], urdf=[(r'(<link name="link_4">.*?)<cylinder radius="[^"]*"', r"\1<cylinder")])
+        self.assert_cell_refused(["kr16.urdf", "link_6", "mesh"], urdf=[(r'(<link name="link_6">.*?)<sphere [^>]*/>', r'\1<mesh filename="l6.stl"/>')])
+
+    def test_arm_without_a_spherical_wrist_is_refused_with_the_remedy(self):
+        self.assert_cell_refused(["robot.urdf", "wrist", "inverse_kinematics: numeric"],
+                                 urdf=[(r'(<joint name="joint_a5".*?<origin xyz=")0 0 0"', r'\g<1>0 0.1 0.05"')])
+
+    def test_arm_that_starts_in_collision_or_beyond_its_limits_is_refused(self):
+        start = "start_rad: [0, -1.9, 1.9, 0, 1.2, 0]"
+        self.assert_cell_refused(["starts in collision", "itself"], cell=[(start, "start_rad: [0, -0.5, 2.68, 0, 2.2, 0]")])
+        self.assert_cell_refused(["starts in collision", "floor"], cell=[(start, "start_rad: [3.1, 0.5, 0.6, 0, 0, 0]")])
+        self.assert_cell_refused(["starts inside the box that is unknown"], cell=[(start, "start_rad: [0, -1.1, 2.15, 0, 0, 0]")])
+        self.assert_cell_refused(["beyond the limits of its joints"], cell=[(start, "start_rad: [0, 1.9, 1.9, 0, 1.2, 0]")])
+        self.assert_cell_refused(["5 joint values"], cell=[(start, "start_rad: [0, -1.9, 1.9, 0, 1.2]"), ("[5.0, 5.0, 5.0, 10.0, 10.0, 15.0]", "[5.0, 5.0, 5.0, 10.0, 10.0]")])
+
+    def test_first_path_out_of_reach_or_in_collision_is_refused(self):
+        self.assert_cell_refused(["first scan path", "reach"], cell=[("position_m: [-1.0, 0, -0.30]", "position_m: [-3.0, 0, -0.30]")])
+        self.assert_cell_refused(["first scan path", "unknown"], cell=[("first_standoff_m: 0.20", "first_standoff_m: 0.01")])
+        self.assert_cell_refused(["first scan path", "table"], cell=[("first_above_table_m: 0.15", "first_above_table_m: 0.0"), ("first_along_W: [0, 0, 1]", "first_along_W: [0, 1, 0]")])
+
+    def test_empty_folder_is_left_as_it_was(self):
+        (self.folder / "mine").mkdir()
+        cell = self.write_cell(cell=[("first_standoff_m: 0.20", "first_standoff_m: 0.01")])
+        self.assert_refused("--object", self.blob, "--cell", cell, says="first scan path", out="mine")
+        self.assertEqual([], os.listdir(self.folder / "mine"))
 
     def test_folder_that_is_no_run_is_refused_and_left_alone(self):
         other = self.folder / "holiday"

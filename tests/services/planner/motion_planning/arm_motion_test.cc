@@ -126,13 +126,16 @@ TEST(ArmMotion, ArmThatStartsInCollisionIsRefused) {
 TEST(ArmMotion, FirstPathOutOfReachOrInCollisionIsRefused) {
   RunConfig config = MakeKr16Run();
   for (Pose* X : {&config.first_path.X_WS_start, &config.first_path.X_WS_end}) X->translation().x() += 5.0;
-  EXPECT_EQ(FindFault(config), "In the cell kr16, the first scan path cannot be driven: no_inverse_kinematics.");
+  EXPECT_EQ(FindFault(config),
+            "In the cell kr16, the first scan path cannot be driven, it is out of the arm's reach: move the arm's base "
+            "(X_OB) or the path (first_view_W, first_standoff_m).");
   config = MakeKr16Run();
   BoxWorld world;
   config.first_path = MakePathAbout(1.6);
   const Eigen::Vector3d p_W = config.first_path.X_WS_start.translation();
   world.unknown.push_back(MakeBox(p_W - Eigen::Vector3d(0.02, 0.02, 0.1), p_W + Eigen::Vector3d(0.02, 0.02, 0.3)));
-  EXPECT_THAT(FindFault(config, world), HasSubstr("the first scan path cannot be driven: blocked_by_unknown"));
+  EXPECT_THAT(FindFault(config, world),
+              HasSubstr("the first scan path cannot be driven, it comes too near to the box that is unknown"));
 }
 
 TEST(ArmMotion, ArmThatDoesNotFitTheCellIsRefused) {
