@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
+#include <utility>
 
 #include "common/geometry/directions.h"
 #include "sim/mesh_measures.h"
@@ -29,6 +31,14 @@ struct Camera {
   Vector3d SampleAt(int row, int column) const { return corner_W + step_m * (column * right - row * up); }
 };
 
+/// Width and height of what is shown, metres.
+std::pair<double, double> CalcExtents(const View& view, const Camera& camera, const Eigen::AlignedBox3d& box) {
+  const Vector3d size = box.isEmpty() ? Vector3d::Ones() : Vector3d(box.sizes());
+  if (view.tight) return {size.dot(camera.right.cwiseAbs()), size.dot(camera.up.cwiseAbs())};
+  const double across = size.head<2>().norm();
+  return {across, size.z() * std::cos(view.elevation_rad) + across * std::abs(std::sin(view.elevation_rad))};
+}
+
 Camera MakeCamera(const View& view, const Eigen::AlignedBox3d& box) {
   const double ca = std::cos(view.azimuth_rad), sa = std::sin(view.azimuth_rad);
   const double ce = std::cos(view.elevation_rad), se = std::sin(view.elevation_rad);
@@ -36,10 +46,9 @@ Camera MakeCamera(const View& view, const Eigen::AlignedBox3d& box) {
   camera.forward = Vector3d(-sa * ce, ca * ce, -se);
   camera.right = Vector3d(ca, sa, 0.0);
   camera.up = camera.right.cross(camera.forward);
+  const auto [across, tall] = CalcExtents(view, camera, box);
   const Vector3d size = box.isEmpty() ? Vector3d::Ones() : Vector3d(box.sizes());
   const Vector3d middle = box.isEmpty() ? Vector3d::Zero() : Vector3d(box.center());
-  const double across = size.head<2>().norm();
-  const double tall = size.z() * ce + across * std::abs(se);
   const double radius = size.norm();
   camera.step_m = 1.04 * std::max(across / view.width, tall / view.height) / kSamples;
   camera.depth_m = 4.0 * radius;
@@ -68,9 +77,8 @@ uint8_t ToByte(double light) {
 /// One row of samples after the other, so that memory stays small.
 class RowShader {
  public:
-  RowShader(const TriangleMesh& mesh, const TriangleScene& scene, const std::vector<float>& openness,
-            const Camera& camera)
-      : mesh_(mesh), scene_(scene), openness_(openness), camera_(camera) {
+  RowShader(const TriangleMesh& mesh, const TriangleScene& scene, const Surface& surface, const Camera& camera)
+      : mesh_(mesh), scene_(scene), surface_(surface), camera_(camera) {
     to_light_ = (-0.75 * camera.forward - 0.55 * camera.right + 0.75 * camera.up).normalized();
   }
 
@@ -103,10 +111,12 @@ class RowShader {
     const Vector3d weights = CalcWeights(p, mesh_.vertices_W[t[0]].cast<double>(),
                                          mesh_.vertices_W[t[1]].cast<double>(), mesh_.vertices_W[t[2]].cast<double>());
     Vector3d normal = Vector3d::Zero();
+    Vector3d color = surface_.colors.empty() ? kStone : Vector3d::Zero();
     double openness = 0.0;
     for (int i = 0; i < 3; ++i) {
+      if (!surface_.colors.empty()) color += weights[i] * surface_.colors[t[i]].cast<double>();
       normal += weights[i] * mesh_.normals_W[t[i]].cast<double>();
-      openness += weights[i] * openness_[t[i]];
+      openness += weights[i] * surface_.openness[t[i]];
     }
     const bool back = hit.normal_W.dot(camera_.forward) > 0.0;
     if (back) normal = -normal;
@@ -115,12 +125,12 @@ class RowShader {
     const double fill = 0.5 + 0.5 * normal.dot(camera_.up);
     const double light =
         0.62 * key + openness * (0.22 + 0.16 * fill) + 0.10 * std::max(0.0, -normal.dot(camera_.forward));
-    return light * (back ? kBackSide : kStone);
+    return light * (back ? kBackSide : color);
   }
 
   const TriangleMesh& mesh_;
   const TriangleScene& scene_;
-  const std::vector<float>& openness_;
+  const Surface& surface_;
   Camera camera_;
   Vector3d to_light_;
 };
@@ -170,10 +180,14 @@ void DrawLine(const Camera& camera, const Vector3d& p_WA, const Vector3d& p_WB, 
 
 }  // namespace
 
-MeshRenderer::MeshRenderer(const TriangleMesh& mesh_W) : mesh_W_(mesh_W), scene_W_(mesh_W) {
+MeshRenderer::MeshRenderer(const TriangleMesh& mesh_W, Surface surface)
+    : mesh_W_(mesh_W), scene_W_(mesh_W), surface_(std::move(surface)) {
+  const auto fits = [&](size_t count) { return count == 0 || count == mesh_W_.vertices_W.size(); };
+  if (!fits(surface_.colors.size()) || !fits(surface_.openness.size()))
+    throw std::invalid_argument("MeshRenderer: a surface of another number of vertices");
   if (mesh_W_.normals_W.empty()) mesh_W_.normals_W = CalcVertexNormals(mesh_W_);
   borders_ = FindBorderEdges(mesh_W_.triangles);
-  CalcOpenness();
+  if (surface_.openness.empty()) CalcOpenness();
 }
 
 void MeshRenderer::CalcOpenness() {
@@ -194,13 +208,13 @@ void MeshRenderer::CalcOpenness() {
       if (blocked[v] == 0) open[v] += weight;
     }
   }
-  openness_.resize(count);
-  for (size_t v = 0; v < count; ++v) openness_[v] = all[v] > 0.0 ? static_cast<float>(open[v] / all[v]) : 1.0f;
+  surface_.openness.resize(count);
+  for (size_t v = 0; v < count; ++v) surface_.openness[v] = all[v] > 0.0 ? static_cast<float>(open[v] / all[v]) : 1.0f;
 }
 
 Picture MeshRenderer::Render(const View& view) const {
   const Camera camera = MakeCamera(view, view.frame_W.value_or(CalcBoundingBox(mesh_W_)));
-  Canvas canvas = DrawSurface(view, RowShader(mesh_W_, scene_W_, openness_, camera));
+  Canvas canvas = DrawSurface(view, RowShader(mesh_W_, scene_W_, surface_, camera));
   if (view.mark_borders) {
     for (const BorderEdge& edge : borders_) {
       DrawLine(camera, mesh_W_.vertices_W[edge.from].cast<double>(), mesh_W_.vertices_W[edge.to].cast<double>(),
@@ -213,6 +227,27 @@ Picture MeshRenderer::Render(const View& view) const {
     for (int channel = 0; channel < 3; ++channel) picture.rgb.push_back(ToByte(color[channel]));
   }
   return picture;
+}
+
+std::vector<uint8_t> MeshRenderer::FindHidden(const std::vector<Vector3d>& points_W, const View& view) const {
+  const Camera camera = MakeCamera(view, view.frame_W.value_or(CalcBoundingBox(mesh_W_)));
+  constexpr double kSkip_m = 0.002;
+  std::vector<TriangleScene::Segment> sights;
+  for (const Vector3d& p : points_W) sights.push_back({p, p - camera.depth_m * camera.forward});
+  return scene_W_.FindBlocked(sights, kSkip_m);
+}
+
+Projection::Projection(const View& view, const Eigen::AlignedBox3d& box_W) {
+  const Camera camera = MakeCamera(view, view.frame_W.value_or(box_W));
+  forward_W_ = camera.forward;
+  right_W_ = camera.right;
+  down_W_ = -camera.up;
+  corner_W_ = camera.corner_W;
+  pixel_m_ = camera.step_m * kSamples;
+}
+
+Eigen::Vector2d Projection::Project(const Vector3d& p_W) const {
+  return Eigen::Vector2d(right_W_.dot(p_W - corner_W_), down_W_.dot(p_W - corner_W_)) / pixel_m_;
 }
 
 std::vector<Picture> MeshRenderer::RenderFourSides(View view) const {

@@ -34,7 +34,9 @@ int WriteOffline(const std::filesystem::path& run_folder) {
   try {
     const nbs::RunConfig config = nbs::ReadRunConfig(run_folder);
     const nbs::Truth truth(config);
-    nbs::ReporterNode reporter(config.grid, truth.MakeEvaluator(), nullptr);
+    std::vector<nbs::TriangleMesh> meshes_W;
+    nbs::ReporterNode reporter(config.grid, truth.MakeEvaluator(), nullptr,
+                               [&meshes_W](const nbs::TriangleMesh& mesh_W) { meshes_W.push_back(mesh_W); });
     nbs::RunOffline(reporter, run_folder);
     nbs::MergeHistories(run_folder / "streams", run_folder / "bus.lcm");
     const auto motions = nbs::GroupMotions(ReadAll<nbs::Trajectory>(config), ReadAll<nbs::RobotState>(config),
@@ -43,7 +45,7 @@ int WriteOffline(const std::filesystem::path& run_folder) {
     findings.time.mesh_s = FindBusyTime(config, "mesher");
     findings.time.map_s = FindBusyTime(config, "voxelmap");
     nbs::AddPlanning(reporter.record(), findings.time);
-    nbs::WriteOutputs(config, reporter, findings);
+    nbs::WriteOutputs(config, reporter, findings, {motions, meshes_W});
     return 0;
   } catch (const nbs::ConfigError& error) {
     std::cerr << "nbs-reporter: " << error.what() << "\n";

@@ -9,7 +9,7 @@
 #include "common/runtime/error.h"
 #include "services/reporter/report_html.h"
 #include "services/reporter/report_json.h"
-#include "sim/render.h"
+#include "services/reporter/run_pictures.h"
 
 namespace nbs {
 namespace {
@@ -39,17 +39,6 @@ double CalcWallTime(const fs::path& run_folder) {
   return std::chrono::duration<double>(last - start).count();
 }
 
-std::vector<ReportPicture> RenderPictures(const TriangleMesh& mesh_W) {
-  constexpr const char* kCaptions[] = {"front", "left", "back", "right"};
-  View view;
-  view.mark_borders = true;
-  std::vector<ReportPicture> pictures;
-  for (const Picture& picture : MeshRenderer(mesh_W).RenderFourSides(view)) {
-    pictures.push_back({kCaptions[pictures.size()], EncodePng(picture)});
-  }
-  return pictures;
-}
-
 }  // namespace
 
 void WriteModel(const MeshReplica& mesh, const fs::path& file) {
@@ -66,13 +55,14 @@ void WriteModel(const MeshReplica& mesh, const fs::path& file) {
   WriteMeshPly(file, mesh.MakeCompactMesh(), extra);
 }
 
-void WriteOutputs(const RunConfig& config, const ReporterNode& reporter, const Findings& findings) {
+void WriteOutputs(const RunConfig& config, const ReporterNode& reporter, const Findings& findings,
+                  const RunTraces& traces) {
   const double wall_s = CalcWallTime(config.folder);
   WriteModel(reporter.mesh(), config.folder / "model.ply");
   WriteOctomap(reporter.voxels(), config.folder / "voxels.ot");
   WriteText(config.folder / "report.json", MakeReportJson(config, reporter.record(), findings, wall_s));
-  WriteText(config.folder / "report.html", MakeReportHtml(config, reporter.record(), findings, wall_s,
-                                                          RenderPictures(reporter.mesh().MakeCompactMesh())));
+  const RunPictures pictures = DrawRun(config, reporter.record(), reporter.voxels(), traces);
+  WriteText(config.folder / "report.html", MakeReportHtml(config, reporter.record(), findings, wall_s, pictures));
 }
 
 }  // namespace nbs

@@ -4,6 +4,7 @@
 
 #include "common/config/run_config.h"
 #include "services/reporter/reporter_node.h"
+#include "services/reporter/run_traces.h"
 
 namespace nbs {
 
@@ -11,7 +12,8 @@ namespace nbs {
 /// or not at all; what was there before is replaced.
 ///
 /// @throws ConfigError, std::runtime_error in one sentence if a file cannot be written.
-void WriteOutputs(const RunConfig& config, const ReporterNode& reporter, const Findings& findings);
+void WriteOutputs(const RunConfig& config, const ReporterNode& reporter, const Findings& findings,
+                  const RunTraces& traces);
 
 /// The mesh as model.ply holds it, with the properties of its vertices.
 void WriteModel(const MeshReplica& mesh, const std::filesystem::path& file);

@@ -17,7 +17,7 @@ h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
 table { border-collapse: collapse; } th, td { padding: 3px 10px; text-align: right; border-bottom: 1px solid #ddd; }
 th { background: #f3f3f3; } td.text, th.text { text-align: left; }
 .plots, .pictures { display: flex; flex-wrap: wrap; gap: 16px; } .plot { width: 580px; } .plot text { font: 11px sans-serif; }
-.grid { stroke: #e4e4e4; } figure { margin: 0; width: 290px; } figure img { width: 100%; } figcaption { text-align: center; color: #666; }
+.grid { stroke: #e4e4e4; } figure { margin: 0; width: 290px; } figure svg { width: 100%; display: block; border-radius: 4px; } .voxels figure { width: 480px; } .scans figure { width: 290px; } figcaption { text-align: center; color: #666; }
 .bad { color: #b00020; } .bar { text-align: left; width: 300px; } .bar span { display: inline-block; height: 0.8em; border-radius: 2px; }
 .note { color: #555; max-width: 60em; }
 )";
@@ -192,12 +192,20 @@ std::string MakeFindings(const Findings& findings) {
   return html;
 }
 
-std::string MakePictures(const std::vector<ReportPicture>& pictures) {
-  std::string html = "<div class='pictures'>\n";
-  for (const ReportPicture& picture : pictures) {
-    html +=
-        fmt::format("<figure><img alt='{0}' src='data:image/png;base64,{1}'><figcaption>{0}</figcaption></figure>\n",
-                    EscapeHtml(picture.caption), Base64(picture.png));
+/// Pictures side by side. A picture that is shown twice is in the file once: `refer_to` names the group that holds it.
+std::string MakePictures(const std::string& group, const std::vector<ReportPicture>& pictures,
+                         const std::string& refer_to = {}) {
+  std::string html = fmt::format("<div class='pictures {}'>\n", group);
+  for (size_t k = 0; k < pictures.size(); ++k) {
+    const ReportPicture& picture = pictures[k];
+    const std::string image =
+        refer_to.empty() ? fmt::format("<image id='{}{}' width='{}' height='{}' href='data:image/png;base64,{}'/>",
+                                       group, k, picture.width, picture.height, Base64(picture.png))
+                         : fmt::format("<use href='#{}{}'/>", refer_to, k);
+    html += fmt::format(
+        "<figure><svg viewBox='0 0 {1} {2}' role='img' "
+        "aria-label='{0}'>{3}\n{4}</svg><figcaption>{0}</figcaption></figure>\n",
+        EscapeHtml(picture.caption), picture.width, picture.height, image, picture.overlay);
   }
   return html + "</div>\n";
 }
@@ -205,13 +213,17 @@ std::string MakePictures(const std::vector<ReportPicture>& pictures) {
 }  // namespace
 
 std::string MakeReportHtml(const RunConfig& config, const RunRecord& record, const Findings& findings, double wall_s,
-                           const std::vector<ReportPicture>& pictures) {
+                           const RunPictures& pictures) {
   std::string html = "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'><title>" + EscapeHtml(config.name) +
                      "</title><style>" + kStyle + "</style></head><body>\n<h1>Scan of " +
                      EscapeHtml(config.object.empty() ? "a real object" : config.object) + "</h1>\n";
   if (record.failed) html += "<p class='bad'>The run failed: " + EscapeHtml(record.detail) + "</p>\n";
   html += MakeSummary(config, record, wall_s);
-  html += "<h2>The mesh from four sides; red: its border</h2>\n" + MakePictures(pictures);
+  if (!pictures.sides.empty()) {
+    html += "<h2>The mesh from four sides; red: its border</h2>\n" + MakePictures("sides", pictures.sides);
+    html += "<h2>The scans in their order, where the middle beam went over the surface</h2>\n" +
+            MakePictures("paths", pictures.paths, "sides");
+  }
   if (!record.scans.empty()) {
     html += "<h2>Progress</h2>\n<div class='plots'>\n" + MakePlot(record, "scans", false) +
             MakePlot(record, "path length, m", true) + "</div>\n";
@@ -219,6 +231,15 @@ std::string MakeReportHtml(const RunConfig& config, const RunRecord& record, con
   html += MakeTimeTable(findings.time);
   if (findings.motion) html += MakeMotionTable(*findings.motion);
   html += MakeFindings(findings);
+  html += "<h2>The voxel space</h2>\n" + MakePictures("voxels", pictures.voxels);
+  if (!pictures.scans.empty()) {
+    html +=
+        "<h2>The robot half-way on each scan path</h2>\n<p class='note'>Its collision bodies, the sensor (blue) with "
+        "its "
+        "beams (red), the path (blue line); of the mesh what had been seen by then, green what this scan saw "
+        "first.</p>\n" +
+        MakePictures("scans", pictures.scans);
+  }
   html += "<h2>Scans</h2>\n" + MakeScanTable(record);
   html += "<h2>What became of the candidates</h2>\n" + MakeVerdictTable(record);
   return html + "</body></html>\n";

@@ -30,8 +30,12 @@ void PrintScan(const ScanRecord& scan, std::ostream& out) {
 
 }  // namespace
 
-ReporterNode::ReporterNode(const GridShape& grid, Evaluator evaluator, std::ostream* progress)
-    : evaluator_(std::move(evaluator)), progress_(progress), next_input_(StreamOf<RunState>()), voxels_(grid) {}
+ReporterNode::ReporterNode(const GridShape& grid, Evaluator evaluator, std::ostream* progress, Observer observer)
+    : evaluator_(std::move(evaluator)),
+      observer_(std::move(observer)),
+      progress_(progress),
+      next_input_(StreamOf<RunState>()),
+      voxels_(grid) {}
 
 void ReporterNode::Handle(const Message& message, Outbox&) {
   std::visit(
@@ -111,7 +115,11 @@ void ReporterNode::Fold(const MeshScan& figures) {
   current_.triangles = figures.triangles;
   current_.edges = figures.edges;
   record_.refused_measurements = figures.refused;
-  if (evaluator_) current_.evaluation = evaluator_(mesh_.MakeCompactMesh());
+  if (evaluator_ || observer_) {
+    const TriangleMesh mesh_W = mesh_.MakeCompactMesh();
+    if (evaluator_) current_.evaluation = evaluator_(mesh_W);
+    if (observer_) observer_(mesh_W);
+  }
   if (progress_ != nullptr) {
     if (record_.scans.empty()) PrintHeader(*progress_);
     PrintScan(current_, *progress_);

@@ -20,8 +20,11 @@ class ReporterNode : public Node {
   /// Rates a mesh against the truth; empty when no truth is known.
   using Evaluator = std::function<Evaluation(const TriangleMesh& mesh_W)>;
 
+  /// Sees the mesh after each scan.
+  using Observer = std::function<void(const TriangleMesh& mesh_W)>;
+
   /// @param progress  Gets a line per scan; null: none. Must outlive the node.
-  ReporterNode(const GridShape& grid, Evaluator evaluator, std::ostream* progress);
+  ReporterNode(const GridShape& grid, Evaluator evaluator, std::ostream* progress, Observer observer = {});
 
   size_t NextInput() const override { return next_input_; }
   void Handle(const Message& message, Outbox& out) override;
@@ -41,6 +44,7 @@ class ReporterNode : public Node {
   void Fold(const MeshScan& figures);
 
   Evaluator evaluator_;
+  Observer observer_;
   std::ostream* progress_;
   size_t next_input_;
   MeshReplica mesh_;

@@ -89,6 +89,39 @@ TEST(MeshRenderer, AzimuthWalksAroundTheObject) {
   EXPECT_FALSE(is_ball(At(sides[0], 28, 90)));
 }
 
+TEST(MeshRenderer, ColoursAndOpennessOfVerticesAreTakenOver) {
+  const TriangleMesh sphere = MakeSphere(0.1f, 4);
+  Surface surface;
+  surface.colors.assign(sphere.vertices_W.size(), Eigen::Vector3f(0.1f, 0.9f, 0.1f));
+  const Color green = At(MeshRenderer(sphere, surface).Render(MakeSmallView()), 70, 90);
+  EXPECT_GT(green.green, 2 * green.red);
+  surface.openness.assign(sphere.vertices_W.size(), 0.0f);
+  EXPECT_LT(At(MeshRenderer(sphere, surface).Render(MakeSmallView()), 70, 90).green, green.green);
+  surface.colors.pop_back();
+  EXPECT_THROW(MeshRenderer(sphere, surface), std::invalid_argument);
+}
+
+TEST(MeshRenderer, ProjectionSaysWhereAPointIsDrawn) {
+  TriangleMesh ball = MakeSphere(0.004f, 3);
+  for (auto& p : ball.vertices_W) p += Eigen::Vector3f(0.03f, 0.02f, -0.05f);
+  for (const bool tight : {false, true}) {
+    View view = MakeSmallView();
+    view.azimuth_rad = 0.4;
+    view.elevation_rad = 0.3;
+    view.tight = tight;
+    view.frame_W = Eigen::AlignedBox3d(Eigen::Vector3d::Constant(-0.1), Eigen::Vector3d::Constant(0.1));
+    const Eigen::Vector2d at = Projection(view, *view.frame_W).Project({0.03, 0.02, -0.05});
+    const Color there = At(MeshRenderer(ball).Render(view), static_cast<int>(at.x()), static_cast<int>(at.y()));
+    EXPECT_NE(there.red, there.blue);
+  }
+}
+
+TEST(MeshRenderer, PointsBehindTheMeshAreHidden) {
+  const MeshRenderer renderer(MakeSphere(0.1f, 4));
+  View view = MakeSmallView();
+  EXPECT_EQ(renderer.FindHidden({{0, -0.2, 0}, {0, 0.2, 0}, {0.2, 0.2, 0}}, view), (std::vector<uint8_t>{0, 1, 0}));
+}
+
 TEST(MeshRenderer, SamePictureEveryTimeAndNothingForAnEmptyMesh) {
   const TriangleMesh sphere = MakeSphere(0.1f, 3);
   EXPECT_EQ(EncodePng(MeshRenderer(sphere).Render(MakeSmallView())),

@@ -21,7 +21,9 @@ TEST(ReportHtml, NamesOfTheUserAreEscaped) {
 
 TEST(ReportHtml, PicturesAreInTheFileItself) {
   // "Man" is the textbook example of base 64, and "Ma" that of its padding.
-  const std::string html = MakeReportHtml(RunConfig{}, RunRecord{}, {}, 1.0, {{"front", "ManMa"}});
+  RunPictures pictures;
+  pictures.sides = {{"front", "ManMa", 7, 9, ""}};
+  const std::string html = MakeReportHtml(RunConfig{}, RunRecord{}, {}, 1.0, pictures);
   EXPECT_THAT(html, HasSubstr("data:image/png;base64,TWFuTWE="));
 }
 
