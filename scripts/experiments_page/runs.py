@@ -5,8 +5,9 @@ import json
 import pathlib
 
 WANTED_COMPLETENESS = 0.9875  # section IV-B of the paper
-# As the coordinator (services/coordinator/run_logic.h): a complete mesh must also have stopped growing.
+# As the coordinator (services/coordinator/run_logic.h): a complete mesh must also have stopped growing, for so many scans in a row.
 COMPLETE_GROWTH = 0.01
+SETTLED_SCANS = 2
 BROKEN_ENDS = ("interrupted", "refused")
 
 
@@ -44,10 +45,12 @@ class Run:
         growing, or with which nothing was left to scan of a complete mesh; with an end rule of its own, or if that never happens, the end of the run."""
         ended_by_itself = self.report["end_reason"] != "scan_limit"
         if self.ends_by_completeness:
+            grown_out = 0
             for i in range(1, len(self.scans)):
                 before, after = self.scans[i - 1], self.scans[i]
                 growth = (after["edges"] - before["edges"]) / max(before["edges"], 1)
-                if after["completeness"] >= WANTED_COMPLETENESS and growth < COMPLETE_GROWTH:
+                grown_out = grown_out + 1 if growth < COMPLETE_GROWTH else 0
+                if after["completeness"] >= WANTED_COMPLETENESS and grown_out >= SETTLED_SCANS:
                     return i + 1, True
             return len(self.scans), ended_by_itself and self.scans[-1]["completeness"] >= WANTED_COMPLETENESS
         return len(self.scans), ended_by_itself

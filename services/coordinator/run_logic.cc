@@ -87,9 +87,9 @@ RunSettings MakeRunSettings(const RunConfig& config) {
   return settings;
 }
 
-bool IsComplete(const RunSettings& settings, const MeshScan& before, const MeshScan& after) {
-  return settings.end == EndRule::kCompleteness && after.completeness >= settings.completeness &&
-         CalcGrowth(before, after) < settings.complete_growth;
+bool IsComplete(const RunSettings& settings, const RunLogicState& state) {
+  return settings.end == EndRule::kCompleteness && state.grown_out >= settings.settled_scans &&
+         state.last_scan.value().completeness >= settings.completeness;
 }
 
 bool HasHardlyChanged(const RunSettings& settings, const MeshScan& before, const MeshScan& after) {
@@ -134,9 +134,11 @@ RunStep Advance(const RunSettings& settings, const RunLogicState& state, const M
   const bool hardly =
       state.last_scan && state.mode == PlanMode::kBoundary && HasHardlyChanged(settings, *state.last_scan, mesh);
   next.settled = hardly ? state.settled + 1 : 0;
+  const bool grown_out = state.last_scan && CalcGrowth(*state.last_scan, mesh) < settings.complete_growth;
+  next.grown_out = grown_out ? state.grown_out + 1 : 0;
   next.last_scan = mesh;
   const int32_t scans = state.scan + 1;
-  if (state.last_scan && IsComplete(settings, *state.last_scan, mesh)) {
+  if (IsComplete(settings, next)) {
     return Finish(next, scans, false, "completeness_reached", ExplainCompleteness(settings, mesh));
   }
   if (scans >= settings.max_scans) {

@@ -15,13 +15,13 @@ struct RunSettings {
   double completeness = 0.9875;  ///< Wanted mesh completeness (section III-F, eq. 3), 0 to 1.
   int max_scans = 30;            ///< >= 1.
   // The wanted completeness counts only once the surface has stopped growing: eq. 3 rises merely because n_total does.
-  // A scan that adds this share to the edges does not end the run, nor does the first.
+  // It has when `settled_scans` in a row each added less than this share to the edges.
   double complete_growth = 0.01;
   CandidateSearch search = CandidateSearch::kBoundaryAndHole;
   EndRule end = EndRule::kCompleteness;
   /// kUnknownSettled: a scan that takes less than this share of all voxels that were unknown at the start was the last.
   double settled_unknown = 0.01;
-  // The mesh completeness "hardly changed" (section III) when this many boundary scans in a row each closed less than
+  // The mesh completeness "hardly changed" (section III) when so many boundary scans in a row each closed less than
   // `settled_closing` of what was missing, 1 - completeness, and added less than `settled_growth` to the edges of the
   // mesh.
   int settled_scans = 2;
@@ -46,6 +46,7 @@ struct RunLogicState {
   std::optional<MeshScan> last_scan;  ///< The mesh after the last finished scan.
   int64_t unknown_cells = 0;          ///< When the last plan was made.
   int64_t unknown_at_start = 0;       ///< When the first plan was made.
+  int grown_out = 0;                  ///< Scans in a row that hardly added to the mesh.
   int settled = 0;                    ///< Boundary scans in a row after which the mesh had hardly changed.
 };
 
@@ -82,9 +83,8 @@ RunStep Advance(const RunSettings& settings, const RunLogicState& state, const E
 /// @throws std::logic_error if no mesh, or that of another scan, is awaited.
 RunStep Advance(const RunSettings& settings, const RunLogicState& state, const MeshScan& mesh);
 
-/// True if the mesh `after` a scan is complete: as wanted, and hardly larger than that `before` it (RunSettings:
-/// complete_growth).
-bool IsComplete(const RunSettings& settings, const MeshScan& before, const MeshScan& after);
+/// True if the mesh after the last scan is complete: as wanted, and grown out (RunSettings: complete_growth).
+bool IsComplete(const RunSettings& settings, const RunLogicState& state);
 
 /// True if the mesh `after` a scan has hardly changed from that `before` it (RunSettings: settled_closing,
 /// settled_growth).

@@ -110,7 +110,7 @@ void PlannerNode::FoldNewestScan() {
   if (!rating_.by_gain || rating_.rule != GainRule::kSurface) return;
   if (std::exchange(predicted_scan_, newest_scan_) == newest_scan_) return;
   prediction_.AddScan(voxels_, config_.cell.profiler, newest_path_);
-  prediction_.Update(voxels_, mesh_);
+  prediction_.Update(voxels_, mesh_, settings_.threads);
 }
 
 double PlannerNode::FindMinGain(PlanMode mode) const {

@@ -1,9 +1,11 @@
 #include "services/planner/surface_prediction.h"
 
 #include <algorithm>
+#include <barrier>
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <thread>
 
 #include "common/geometry/borders.h"
 #include "common/mapping/ray_walk.h"
@@ -115,9 +117,9 @@ void SurfacePrediction::AddScan(const VoxelGrid& grid, const Profiler& profiler,
     looks_[block] = std::min<uint8_t>(kMaxCount, looks_[block] + looked[block]);
 }
 
-void SurfacePrediction::Update(const VoxelGrid& grid, const MeshReplica& mesh) {
+void SurfacePrediction::Update(const VoxelGrid& grid, const MeshReplica& mesh, int threads) {
   FixKnown(grid, mesh);
-  Relax();
+  Relax(threads);
   MeasureRoom();
   elements_.clear();
   FindElements();
@@ -150,29 +152,38 @@ void SurfacePrediction::FixKnown(const VoxelGrid& grid, const MeshReplica& mesh)
   }
 }
 
-void SurfacePrediction::Relax() {
+void SurfacePrediction::Relax(int threads) {
   struct Unknown {
     uint32_t block;
     float pull, share;  // Of the looks in vain, and of each neighbour in the mean.
   };
-  std::vector<Unknown> unknown;
+  std::vector<std::vector<Unknown>> layers(shape_.size.z());
   VisitInner(shape_, [&](int64_t block) {
     if (fixed_[block] != 0) return;
     const float pull = static_cast<float>(settings_.look_weight) *
                        static_cast<float>(std::min<int>(looks_[block], settings_.max_looks));
-    unknown.push_back({static_cast<uint32_t>(block), pull, 1.0f / (6.0f + pull)});
+    layers[block / stride_[2]].push_back({static_cast<uint32_t>(block), pull, 1.0f / (6.0f + pull)});
   });
   const auto omega = static_cast<float>(settings_.relaxation);
-  const int64_t x = stride_[0], y = stride_[1], z = stride_[2];
-  float* u = potential_.data();
-  for (int i = 0; i < settings_.iterations; ++i) {
-    for (const Unknown& here : unknown) {
+  const auto relax_layer = [&, u = potential_.data(), x = stride_[0], y = stride_[1], z = stride_[2]](int layer) {
+    for (const Unknown& here : layers[layer]) {
       const int64_t b = here.block;
       // The neighbour that has just changed comes last: the processor need not wait for it.
       const float sum = u[b + x] + u[b - y] + u[b + y] + u[b - z] + u[b + z] - here.pull + u[b - x];
       u[b] += omega * (sum * here.share - u[b]);
     }
-  }
+  };
+  // Layers of one parity do not touch each other: whichever thread takes them, the result is the same.
+  std::barrier sweep_done(threads);
+  const auto work = [&](int thread) {
+    for (int half = 0; half < 2 * settings_.iterations; ++half) {
+      for (int layer = half % 2 + 2 * thread; layer < shape_.size.z(); layer += 2 * threads) relax_layer(layer);
+      sweep_done.arrive_and_wait();
+    }
+  };
+  std::vector<std::jthread> workers;
+  for (int thread = 1; thread < threads; ++thread) workers.emplace_back(work, thread);
+  work(0);
 }
 
 void SurfacePrediction::MeasureRoom() {

@@ -21,15 +21,15 @@ struct SurfaceElement {
 };
 
 struct SurfacePredictionSettings {
-  double block_m = 0.010;             ///< Edge of a block, rounded to whole voxels.
+  double block_m = 0.005;             ///< Edge of a block, rounded to whole voxels.
   double depth_m = 0.012;             ///< So far behind a measured point is inside of the object.
   double free_max_probability = 0.3;  ///< A voxel is known to be free up to this p.
-  int iterations = 80;                ///< Sweeps of the relaxation a round; the next round goes on where it ended.
+  int iterations = 40;                ///< Sweeps of the relaxation a round; the next round goes on where it ended.
   double relaxation = 1.85;           ///< Over-relaxation, in (0, 2).
   double look_weight = 1.0;     ///< Pull to free of a scan that looked through a block in vain; each neighbour has 1.
   int max_looks = 5;            ///< More scans than this pull no harder.
   double rim_width_m = 0.008;   ///< Of the strip of elements along the border of the mesh.
-  double max_rim_share = 0.05;  ///< Elements of the strip in one block come to at most this share of a block's face.
+  double max_rim_share = 0.20;  ///< Elements of the strip in one block come to at most this share of a block's face.
   double missed_factor = 0.1;  ///< What is left of the trust in an element when a scan should have seen it and did not:
   double missed_elsewhere = 0.8;  ///< looked at from there again, and from a side at right angles to it.
 };
@@ -54,7 +54,9 @@ class SurfacePrediction {
   void AddScan(const VoxelGrid& grid, const Profiler& profiler, const ScanPath& path);
 
   /// Foretells the surface anew from the voxel space and the mesh as they are now.
-  void Update(const VoxelGrid& grid, const MeshReplica& mesh);
+  ///
+  /// @param threads  >= 1; they change nothing.
+  void Update(const VoxelGrid& grid, const MeshReplica& mesh, int threads = 1);
 
   /// Predicted blocks in index order, then the border's edges in the order of FindBorderEdges.
   std::span<const SurfaceElement> elements() const { return elements_; }
@@ -73,7 +75,7 @@ class SurfacePrediction {
 
  private:
   void FixKnown(const VoxelGrid& grid, const MeshReplica& mesh);
-  void Relax();
+  void Relax(int threads);
   void MeasureRoom();
   void FindElements();
   void AddRim(const MeshReplica& mesh);

@@ -14,7 +14,6 @@ constexpr float kSeedCosine = 0.7f;
 constexpr float kPatchCosine = 0.3f;
 /// Moves that keep this share of the gain stay candidates.
 constexpr double kNearlyAsGood = 0.9;
-constexpr uint32_t kEstimateStep = 4;  ///< Seeds are ranked by every fourth element.
 constexpr double kUnlike_m = 0.08;
 constexpr double kUnlike_rad = 0.4;
 
@@ -158,7 +157,8 @@ std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, cons
   std::vector<ScanPath> paths;
   for (uint32_t seed : ChooseSeeds(elements, settings.seed_spacing_m))
     AddSeedPaths(elements, elements[seed], profiler.standoff_m, settings, paths);
-  std::vector<Proposal> proposals = rate(TakeBest(rate(paths, kEstimateStep), settings.max_candidates), 1);
+  std::vector<Proposal> proposals =
+      rate(TakeBest(rate(paths, settings.seed_step), settings.max_candidates), settings.element_step);
   SortByGain(proposals);
 
   for (Proposal best : TakeUnlike(proposals, settings.improve, kUnlike_m, kUnlike_rad)) {
@@ -170,7 +170,7 @@ std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, cons
         if (!settings.could_drive || settings.could_drive(path)) moved.push_back(path);
       }
       const double gain_before = best.gain_nat;
-      for (const Proposal& trial : rate(moved, 1)) {
+      for (const Proposal& trial : rate(moved, settings.element_step)) {
         if (trial.gain_nat > kNearlyAsGood * gain_before) proposals.push_back(trial);
         if (trial.gain_nat > best.gain_nat) best = trial;
       }

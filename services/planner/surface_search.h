@@ -19,6 +19,8 @@ struct SurfaceSearchSettings {
   size_t max_candidates = 300;   ///< The best that are not alike.
   double alike_m = 0.02;         ///< Candidates nearer than this and …
   double alike_rad = 0.12;       ///< … turned by less than this are one.
+  uint32_t seed_step = 16;       ///< Proposals are ranked by every so many elements of the prediction, …
+  uint32_t element_step = 4;     ///< … and improved by every so many.
   int threads = 2;
   std::function<bool(const ScanPath&)> could_drive;  ///< Other paths are not proposed; empty: all could be driven.
 };
@@ -31,7 +33,8 @@ struct SurfaceSearchSettings {
 /// best proposals are then improved: shifted, turned, lengthened, moved nearer or away, as long as the gain grows. All
 /// that come near the best stay candidates, because the robot may not reach the best.
 ///
-/// @returns Unlike paths by falling gain; of equals the earlier proposal first.
+/// @returns Unlike paths by falling gain, as every `element_step`-th element tells it; of equals the earlier proposal
+///          first.
 std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, const SurfaceView& view,
                                        const Profiler& profiler, double voxel_m,
                                        const SurfaceSearchSettings& settings = {});

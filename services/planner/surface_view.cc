@@ -8,8 +8,8 @@
 namespace nbs {
 namespace {
 
-/// The prediction is coarse: walls so many blocks before an element do not hide it.
-constexpr float kBlindBlocks = 2.0f;
+/// The prediction is coarse: walls so near before an element do not hide it.
+constexpr float kBlind_m = 0.020f;
 
 /// Whether an element can be seen from a point: walks the line in steps as long as the room around allows, at least
 /// half a block, which is as exact as a prediction in blocks deserves.
@@ -27,7 +27,7 @@ bool IsInSight(const SurfacePrediction& prediction, const Eigen::Vector3f& from_
   const float end = std::min(length, way.minCoeff() - 1e-3f);
   const uint8_t* room = prediction.room().data();
   const auto row = static_cast<int64_t>(shape.size.x()), layer = row * shape.size.y();
-  float done = kBlindBlocks;
+  float done = kBlind_m / block_m;
   while (done < end) {
     const auto x = static_cast<int>(start.x() + along.x() * done), y = static_cast<int>(start.y() + along.y() * done),
                z = static_cast<int>(start.z() + along.z() * done);

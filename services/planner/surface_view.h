@@ -19,7 +19,7 @@ struct Sighting {
 /// An element is seen if it comes into the light plane between start and end of the path, there within fan and depth of
 /// field, under an incidence that the profiler can measure with `incidence_margin_rad` to spare (the prediction's
 /// normal is a guess), and neither the laser's nor the camera's line of sight meets a wall of the prediction farther
-/// than two blocks in front of it. The path's orientation is that of its start: candidates do not turn.
+/// than 20 mm in front of it. The path's orientation is that of its start: candidates do not turn.
 class SurfaceView {
  public:
   explicit SurfaceView(const Profiler& profiler, double incidence_margin_rad = 0.1);

@@ -44,8 +44,8 @@ class Run(unittest.TestCase):
         run = make_run([make_scan(0.3), make_scan(0.8)])
         self.assertEqual([0.3, 0.8, 0.8], [run.coverage_after(count) for count in (1, 2, 30)])
 
-    def test_ends_at_the_first_scan_that_completes_a_mesh_that_has_stopped_growing(self):
-        scans = [make_scan(0.3, 0.99, 1000), make_scan(0.5, 0.98, 1001), make_scan(0.7, 0.9875, 1020), make_scan(0.8, 0.9874, 1021), make_scan(0.9, 0.9875, 1031),
+    def test_ends_when_a_complete_mesh_has_hardly_grown_twice_in_a_row(self):
+        scans = [make_scan(0.3, 0.99, 1000), make_scan(0.5, 0.98, 1001), make_scan(0.7, 0.9875, 1020), make_scan(0.8, 0.9875, 1021), make_scan(0.9, 0.9875, 1031),
                  make_scan(1.0, 0.99, 1031)]
         self.assertEqual((5, True), make_run(scans).find_end())
         self.assertEqual((4, False), make_run(scans[:4]).find_end())

@@ -49,7 +49,7 @@ TEST(CoordinatorNode, RunsUntilTheMeshIsComplete) {
   const auto& last = std::get<RunState>(out.back());
   EXPECT_EQ(last.phase, RunPhase::kFinished);
   EXPECT_EQ(last.end_reason, "completeness_reached");
-  EXPECT_EQ(last.scan, 5);
+  EXPECT_EQ(last.scan, 6);
 }
 
 TEST(CoordinatorNode, StopsAtTheLimitOnScans) {
@@ -75,9 +75,9 @@ TEST(CoordinatorNode, EveryScanIsAskedForScannedAndToldOnce) {
     trajectories += std::holds_alternative<Trajectory>(message);
     states += std::holds_alternative<RunState>(message);
   }
-  EXPECT_EQ(requests, 5);
-  EXPECT_EQ(trajectories, 5);
-  EXPECT_EQ(states, 2 * 5 + 1);
+  EXPECT_EQ(requests, 6);
+  EXPECT_EQ(trajectories, 6);
+  EXPECT_EQ(states, 2 * 6 + 1);
 }
 
 }  // namespace

@@ -134,8 +134,13 @@ TEST(RunLogic, ARefusedTrajectoryFailsTheRun) {
 }
 
 TEST(RunLogic, ACompleteMeshEndsTheRun) {
-  RunLogicState state = MakeState(Awaiting::kMeshScan, 3, PlanMode::kBoundary);
-  state.last_scan = MakeMesh(2, 0.98, 9'950);
+  RunLogicState state = MakeState(Awaiting::kMeshScan, 2, PlanMode::kBoundary);
+  state.last_scan = MakeMesh(1, 0.99, 9'900);
+  // One scan that adds little may have been a poor one.
+  state = Advance(kSettings, state, MakeMesh(2, 0.99, 9'950)).state;
+  EXPECT_EQ(state.awaiting, Awaiting::kPlan);
+  EXPECT_EQ(state.grown_out, 1);
+  state.awaiting = Awaiting::kMeshScan;
   const RunStep step = Advance(kSettings, state, MakeMesh(3, 0.9875));
   EXPECT_EQ(step.state.awaiting, Awaiting::kNothing);
   EXPECT_EQ(Find<RunState>(step).end_reason, "completeness_reached");
@@ -146,8 +151,10 @@ TEST(RunLogic, ACompleteMeshEndsTheRun) {
 TEST(RunLogic, AMeshThatStillGrowsIsNotComplete) {
   RunLogicState state = MakeState(Awaiting::kMeshScan, 3, PlanMode::kBoundary);
   state.last_scan = MakeMesh(2, 0.98, 9'500);
+  state.grown_out = 5;
   const RunStep step = Advance(kSettings, state, MakeMesh(3, 0.9875));
   EXPECT_EQ(Find<PlanRequest>(step).scan, 4);
+  EXPECT_EQ(step.state.grown_out, 0);
 }
 
 TEST(RunLogic, TheFirstScanAloneDoesNotCompleteTheMesh) {
@@ -183,6 +190,7 @@ TEST(RunLogic, AMethodThatScansAllItHasIgnoresTheCompleteness) {
   settings.end = EndRule::kNothingLeft;
   RunLogicState state = MakeState(Awaiting::kMeshScan, 3, PlanMode::kBoundary);
   state.last_scan = MakeMesh(2, 1.0, 9'999);
+  state.grown_out = 5;
   EXPECT_EQ(Find<PlanRequest>(Advance(settings, state, MakeMesh(3, 1.0))).scan, 4);
 }
 
