@@ -91,7 +91,7 @@ TEST(MotionAudit, FlangeThatIsTooFastOrJumpsIsNamed) {
     return AuditMotion(MakeFreeRun(), far, Execute(points));
   };
   const MotionAudit fast = audit_of({MakePoint(0, {1, 0, 0}), MakePoint(100'000, {1, 0, 0.027})});
-  EXPECT_EQ(fast.of(MotionFault::kSpeed).count, 1);
+  ASSERT_EQ(fast.of(MotionFault::kSpeed).count, 1);
   EXPECT_EQ(fast.of(MotionFault::kSpeed).first->body, "flange");
   EXPECT_EQ(fast.of(MotionFault::kJump).count, 0);
   EXPECT_EQ(audit_of({MakePoint(0, {1, 0, 0}), MakePoint(100'000, {1, 0, 0.025})}).CountAll(), 0);
@@ -106,7 +106,7 @@ TEST(MotionAudit, ScanningSensorKeepsItsOwnSpeed) {
   EXPECT_EQ(AuditMotion(MakeFreeRun(), far, Execute(points)).CountAll(), 0);
   points[0].scanning = points[1].scanning = true;
   const MotionAudit audit = AuditMotion(MakeFreeRun(), far, Execute(points));
-  EXPECT_GE(audit.of(MotionFault::kSpeed).count, 1);
+  ASSERT_GE(audit.of(MotionFault::kSpeed).count, 1);
   EXPECT_EQ(audit.of(MotionFault::kSpeed).first->body, "sensor");
   EXPECT_DOUBLE_EQ(audit.scan_s, 1.0);
 }
@@ -127,7 +127,7 @@ TEST(MotionAudit, MotionThatBeginsElsewhereJumps) {
   EXPECT_EQ(auditor.audit().CountAll(), 0);
   auditor.Look(Execute({MakePoint(0, {1, 0, 0.3}), MakePoint(1'000'000, {1, 0, 0.3})}, 2'080'000, 2));
   const MotionFaultCount& jumps = auditor.audit().of(MotionFault::kJump);
-  EXPECT_EQ(jumps.count, 1);
+  ASSERT_EQ(jumps.count, 1);
   EXPECT_EQ(jumps.first->scan, 2);
 }
 
@@ -220,7 +220,7 @@ TEST_F(ArmAudit, JointBeyondItsLimitTooFastOrJumpingIsNamed) {
   Joints beyond = MakeStart();
   beyond[4] = 2.3;
   const MotionAudit limit = AuditWay(beyond, object);
-  EXPECT_EQ(limit.of(MotionFault::kJointLimit).count, 2);  // its last state and its last point
+  ASSERT_EQ(limit.of(MotionFault::kJointLimit).count, 2);  // its last state and its last point
   EXPECT_EQ(limit.of(MotionFault::kJointLimit).first->body, "joint_a5");
   // 2.72 rad/s is the limit of joint 1.
   Joints turned = MakeStart();
