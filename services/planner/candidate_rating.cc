@@ -1,6 +1,12 @@
 #include "services/planner/candidate_rating.h"
 
 namespace nbs {
+namespace {
+
+/// Paths over the prediction are ranked by every so many of its elements.
+constexpr uint32_t kRankingStep = 4;
+
+}  // namespace
 
 CandidateRating::CandidateRating(const RatingContext& context, const VoxelGrid& voxels,
                                  const SurfacePrediction& prediction)
@@ -14,7 +20,7 @@ CandidateRating::CandidateRating(const RatingContext& context, const VoxelGrid& 
 
 std::vector<double> CandidateRating::EstimateGains(std::span<const ScanPath> paths) const {
   if (!context_.by_gain) return std::vector<double>(paths.size(), 0.0);
-  if (is_surface()) return view_.CalcGains(prediction_, paths, voxel_m_, context_.threads);
+  if (is_surface()) return view_.CalcGains(prediction_, paths, voxel_m_, context_.threads, kRankingStep);
   std::vector<double> gains_nat;
   gains_nat.reserve(paths.size());
   for (int64_t gain : gain_.CalcAll(*map_, paths, context_.ranking, context_.threads))

@@ -27,7 +27,7 @@ class CandidateRating {
   /// Keeps references to `voxels` and `prediction`.
   CandidateRating(const RatingContext& context, const VoxelGrid& voxels, const SurfacePrediction& prediction);
 
-  /// Gains in nats, of a part of the beams where the rule counts beams.
+  /// Gains in nats, of a part of the beams or of the predicted surface.
   std::vector<double> EstimateGains(std::span<const ScanPath> paths) const;
   /// Gain in nats, of all beams.
   double CalcGain(const ScanPath& path) const;

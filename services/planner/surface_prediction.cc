@@ -155,22 +155,23 @@ void SurfacePrediction::FixKnown(const VoxelGrid& grid, const MeshReplica& mesh)
 void SurfacePrediction::Relax(int threads) {
   struct Unknown {
     uint32_t block;
-    float pull, share;  // Of the looks in vain, and of each neighbour in the mean.
+    float pull;   // Of the looks in vain.
+    float share;  // Of each neighbour in the new value.
   };
+  const auto omega = static_cast<float>(settings_.relaxation);
   std::vector<std::vector<Unknown>> layers(shape_.size.z());
   VisitInner(shape_, [&](int64_t block) {
     if (fixed_[block] != 0) return;
     const float pull = static_cast<float>(settings_.look_weight) *
                        static_cast<float>(std::min<int>(looks_[block], settings_.max_looks));
-    layers[block / stride_[2]].push_back({static_cast<uint32_t>(block), pull, 1.0f / (6.0f + pull)});
+    layers[block / stride_[2]].push_back({static_cast<uint32_t>(block), pull, omega / (6.0f + pull)});
   });
-  const auto omega = static_cast<float>(settings_.relaxation);
   const auto relax_layer = [&, u = potential_.data(), x = stride_[0], y = stride_[1], z = stride_[2]](int layer) {
     for (const Unknown& here : layers[layer]) {
       const int64_t b = here.block;
       // The neighbour that has just changed comes last: the processor need not wait for it.
-      const float sum = u[b + x] + u[b - y] + u[b + y] + u[b - z] + u[b + z] - here.pull + u[b - x];
-      u[b] += omega * (sum * here.share - u[b]);
+      const float others = u[b + x] + u[b - y] + u[b + y] + u[b - z] + u[b + z] - here.pull;
+      u[b] = (u[b] - omega * u[b] + here.share * others) + here.share * u[b - x];
     }
   };
   // Layers of one parity do not touch each other: whichever thread takes them, the result is the same.

@@ -12,7 +12,7 @@ namespace {
 constexpr float kBlind_m = 0.020f;
 
 /// Whether an element can be seen from a point: walks the line in steps as long as the room around allows, at least
-/// half a block, which is as exact as a prediction in blocks deserves.
+/// a block, which is as exact as a prediction in blocks deserves.
 bool IsInSight(const SurfacePrediction& prediction, const Eigen::Vector3f& from_W, const Eigen::Vector3f& element_W) {
   const GridShape& shape = prediction.shape();
   const auto block_m = static_cast<float>(shape.resolution_m);
@@ -33,7 +33,7 @@ bool IsInSight(const SurfacePrediction& prediction, const Eigen::Vector3f& from_
                z = static_cast<int>(start.z() + along.z() * done);
     const int free_blocks = room[z * layer + y * row + x] - 1;
     if (free_blocks < 0) return false;
-    done += std::max(0.5f, static_cast<float>(free_blocks) * steps_per_room);
+    done += std::max(1.0f, static_cast<float>(free_blocks) * steps_per_room);
   }
   return true;
 }
