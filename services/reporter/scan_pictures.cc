@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "services/reporter/svg_overlay.h"
@@ -117,9 +116,9 @@ void AddRoom(const RunConfig& config, const RobotBody& robot, Drawing& drawing) 
 Eigen::AlignedBox3d MakeFrame(const RunConfig& config, const RobotBody& robot) {
   const Vector3d sizes = config.grid.resolution_m * config.grid.size.cast<double>();
   Eigen::AlignedBox3d frame(config.grid.origin_W, config.grid.origin_W + sizes);
-  const double around_m = robot.arm() ? 0.2 : 0.33;
-  frame.min().array() -= around_m;
-  frame.max().array() += around_m;
+  constexpr double kAround_m = 0.2;
+  frame.min().array() -= kAround_m;
+  frame.max().array() += kAround_m;
   if (robot.arm()) {
     const Vector3d base = robot.X_WB().translation();
     frame.extend(Vector3d(base - Vector3d(0.3, 0.2, 0.0)));
@@ -149,12 +148,23 @@ PixelLine ProjectAll(const Projection& projection, const std::vector<Vector3d>& 
   return line;
 }
 
+/// Of a polygon, square pixels.
+double CalcArea(const PixelLine& outline) {
+  double twice = 0.0;
+  for (size_t k = 0; k < outline.size(); ++k) {
+    const Eigen::Vector2d& p = outline[k];
+    const Eigen::Vector2d& q = outline[(k + 1) % outline.size()];
+    twice += p.x() * q.y() - q.x() * p.y();
+  }
+  return 0.5 * std::abs(twice);
+}
+
 /// Draws one scan after the other in the same room.
 class ScanPainter {
  public:
   explicit ScanPainter(const RunConfig& config) : config_(config), robot_(config) {
-    view_.width = 440;
-    view_.height = 360;
+    view_.width = robot_.arm() ? 440 : 360;
+    view_.height = robot_.arm() ? 360 : 400;
     view_.elevation_rad = 0.28;
     view_.tight = true;
     view_.frame_W = MakeFrame(config, robot_);
@@ -184,7 +194,7 @@ class ScanPainter {
   }
 
  private:
-  /// From the front or from behind an arm's plane; around a free-flying sensor from eight sides.
+  /// Where the fan shows the largest visible area: from either side of an arm, from eight around a free-flying sensor.
   View ChooseView(const MeshRenderer& renderer, const std::vector<Vector3d>& fan) const {
     std::vector<double> azimuths = {-0.3, std::numbers::pi + 0.3};
     if (!robot_.arm()) {
@@ -192,14 +202,15 @@ class ScanPainter {
       for (int k = 0; k < 8; ++k) azimuths.push_back(0.25 * k * std::numbers::pi);
     }
     View best = view_;
-    int64_t fewest = std::numeric_limits<int64_t>::max();
+    double most = -1.0;
     for (const double azimuth_rad : azimuths) {
       View view = view_;
       view.azimuth_rad = azimuth_rad;
       const auto hidden = renderer.FindHidden(fan, view);
-      const int64_t count = std::ranges::count(hidden, 1);
-      if (count >= fewest) continue;
-      fewest = count;
+      const double shown = CalcArea(ProjectAll(Projection(view, *view.frame_W), fan)) *
+                           static_cast<double>(std::ranges::count(hidden, 0));
+      if (shown <= most) continue;
+      most = shown;
       best = view;
     }
     return best;

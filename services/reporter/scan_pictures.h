@@ -12,7 +12,7 @@ namespace nbs {
 /// The robot half-way on each scan path: its collision bodies, the sensor with its beams, the table, the path, and
 /// the mesh after the scan; what this scan added is tinted. A free-flying sensor is drawn alone.
 ///
-/// Each scan is shown from the side on which less of its beams is hidden.
+/// Each scan is shown from the side on which more of its beams can be seen.
 std::vector<ReportPicture> DrawScans(const RunConfig& config, const RunRecord& record, const RunTraces& traces);
 
 }  // namespace nbs
