@@ -98,9 +98,8 @@ std::string Fault(const Plan& plan) {
 std::string Fault(const CandidateSet& set) { return AreSound(set.candidates) ? "" : "a candidate is unsound"; }
 
 std::string Fault(const PlanTiming& t) {
-  return IsFinite(std::initializer_list<double>{t.update_s, t.candidates_s, t.gain_s, t.motion_s, t.total_s})
-             ? ""
-             : "a duration is not finite";
+  const std::initializer_list<double> sums_s = {t.update_s, t.candidates_s, t.gain_s, t.motion_s, t.total_s};
+  return IsFinite(sums_s) && IsFinite(t.plans_s) ? "" : "a duration is not finite";
 }
 
 template <typename T>

@@ -198,6 +198,7 @@ void Fields(Wire& wire, Field<Wire, PlanTiming> timing) {
   wire.template Integer<int32_t>(timing.scan);
   for (auto* duration : {&timing.update_s, &timing.candidates_s, &timing.gain_s, &timing.motion_s, &timing.total_s})
     wire.Double(*duration);
+  Fields<Wire>(wire, timing.plans_s);
 }
 
 }  // namespace nbs

@@ -138,8 +138,9 @@ struct PlanTiming {
   double update_s = 0.0;      ///< Replicas and distance field.
   double candidates_s = 0.0;  ///< Boundary search or hole detection.
   double gain_s = 0.0;
-  double motion_s = 0.0;  ///< Reachability and motion planning.
-  double total_s = 0.0;   ///< From the request to the answer.
+  double motion_s = 0.0;        ///< Reachability and motion planning.
+  double total_s = 0.0;         ///< From the request to the answer.
+  std::vector<double> plans_s;  ///< Each motion that was planned, found or not; part of motion_s.
 };
 
 enum class RunPhase : uint8_t { kPlanning = 0, kScanning = 1, kFinished = 2 };

@@ -161,6 +161,7 @@ SelectionTools PlannerNode::MakeTools(const PlanRequest& request, const Clearanc
   };
   tools.plan_motion = [this, &request, &clearance, &timing](const ScanPath& path) {
     Stopwatch watch(clock_, timing.motion_s);
+    Stopwatch plan_watch(clock_, timing.plans_s.emplace_back(0.0));
     const uint64_t seed = CalcRandomBits({config_.seed, static_cast<uint64_t>(request.scan)});
     MotionPlanner::Result motion = motion_.Plan(clearance, now_, path, seed);
     // The path was checked before: a part of it now would be a path without a rating.

@@ -1,5 +1,7 @@
 #include "services/reporter/report_json.h"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/planning/method.h"
@@ -80,6 +82,16 @@ ordered_json MakeScan(const ScanRecord& scan) {
   return json;
 }
 
+/// Count and quantiles (nearest rank) of the motion plans.
+ordered_json MakeMotionPlans(const std::vector<double>& times_s) {
+  if (times_s.empty()) return nullptr;
+  const auto quantile_ms = [&](double share) {
+    const double rank = std::ceil(share * static_cast<double>(times_s.size()));
+    return 1e3 * times_s.at(static_cast<size_t>(std::max(rank, 1.0)) - 1);
+  };
+  return {{"count", times_s.size()}, {"median_ms", quantile_ms(0.5)}, {"p95_ms", quantile_ms(0.95)}};
+}
+
 }  // namespace
 
 std::string MakeReportJson(const RunConfig& config, const RunRecord& record, const Findings& findings, double wall_s) {
@@ -100,6 +112,7 @@ std::string MakeReportJson(const RunConfig& config, const RunRecord& record, con
   json["n_scans"] = record.scans.size();
   json["path_length_m"] = CalcPathLength(record);
   json["mean_selection_s"] = OrNull(CalcMeanSelection(record));
+  json["motion_plans"] = MakeMotionPlans(CollectPlanTimes(record));
   json["completeness"] = from_last(&ScanRecord::completeness);
   json["coverage"] = evaluation ? ordered_json(evaluation->coverage) : ordered_json(nullptr);
   json["observable_coverage"] = evaluation ? ordered_json(evaluation->observable_coverage) : ordered_json(nullptr);

@@ -88,6 +88,7 @@ void ReporterNode::Fold(const PlanTiming& timing) {
   current_.timing.gain_s += timing.gain_s;
   current_.timing.motion_s += timing.motion_s;
   current_.timing.total_s += timing.total_s;
+  current_.timing.plans_s.insert(current_.timing.plans_s.end(), timing.plans_s.begin(), timing.plans_s.end());
   next_input_ = StreamOf<RunState>();
 }
 

@@ -1,5 +1,7 @@
 #include "services/reporter/run_record.h"
 
+#include <algorithm>
+
 namespace nbs {
 
 double CalcPathLength(const RunRecord& record) {
@@ -15,6 +17,14 @@ void AddPlanning(const RunRecord& record, TimeSplit& split) {
   };
   for (const ScanRecord& scan : record.scans) add(scan.timing);
   add(record.last_timing);
+}
+
+std::vector<double> CollectPlanTimes(const RunRecord& record) {
+  std::vector<double> times_s = record.last_timing.plans_s;
+  for (const ScanRecord& scan : record.scans)
+    times_s.insert(times_s.end(), scan.timing.plans_s.begin(), scan.timing.plans_s.end());
+  std::ranges::sort(times_s);
+  return times_s;
 }
 
 std::optional<double> CalcMeanSelection(const RunRecord& record) {

@@ -75,6 +75,9 @@ double CalcPathLength(const RunRecord& record);
 /// Wall-clock time of all rounds of planning, in `selection_s` and `planning_s`; the rest is left as it is.
 void AddPlanning(const RunRecord& record, TimeSplit& split);
 
+/// Wall-clock durations of all motion plans, seconds, rising.
+std::vector<double> CollectPlanTimes(const RunRecord& record);
+
 /// Mean wall-clock duration of a selection, seconds; nullopt if no scan was selected (the first path is set
 /// beforehand).
 std::optional<double> CalcMeanSelection(const RunRecord& record);

@@ -103,7 +103,10 @@ void Fill(Random& r, Plan& m) {
        RandomTrajectory(r)};
 }
 void Fill(Random& r, CandidateSet& m) { m = MakeRandomCandidateSet(r, Some(r)); }
-void Fill(Random& r, PlanTiming& m) { m = {0, Scan(r), Real(r), Real(r), Real(r), Real(r), Real(r)}; }
+void Fill(Random& r, PlanTiming& m) {
+  m = {0, Scan(r), Real(r), Real(r), Real(r), Real(r), Real(r), {}};
+  for (size_t i = Some(r); i > 0; --i) m.plans_s.push_back(Real(r));
+}
 
 template <size_t... Streams>
 Message MakeOfStream(size_t stream, std::index_sequence<Streams...>) {

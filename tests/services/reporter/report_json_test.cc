@@ -47,6 +47,17 @@ TEST(ReportJson, FiguresAreThoseOfTheLastScanAndSumsOfAll) {
   EXPECT_EQ(json["scans"][1]["verdicts"]["blocked_by_unknown"], 3);
 }
 
+TEST(ReportJson, MotionPlansAreThoseOfAllRounds) {
+  RunRecord record = MakeRecord();
+  for (int i = 1; i <= 18; ++i) record.scans[i % 2].timing.plans_s.push_back(1e-3 * i);
+  record.last_timing.plans_s = {0.5, 0.7};
+  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, record, {}, 12.5));
+  EXPECT_EQ(json["motion_plans"]["count"], 20);
+  EXPECT_DOUBLE_EQ(json["motion_plans"]["median_ms"], 10.0);
+  EXPECT_DOUBLE_EQ(json["motion_plans"]["p95_ms"], 500.0);
+  EXPECT_TRUE(nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), {}, 12.5))["motion_plans"].is_null());
+}
+
 TEST(ReportJson, TheFirstPathIsNoSelection) {
   const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), {}, 12.5));
   EXPECT_DOUBLE_EQ(json["mean_selection_s"], 10.0);
