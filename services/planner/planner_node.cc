@@ -154,11 +154,14 @@ SelectionTools PlannerNode::MakeTools(const PlanRequest& request, const Clearanc
   tools.calc_score = [this, &rating](const Candidate& candidate, double gain_nat) {
     return rating.CalcScore(candidate, gain_nat, now_.X_WS);
   };
-  tools.check_path = [this, &clearance, &timing](const ScanPath& path) {
+  tools.check_paths = [this, &clearance, &timing](std::span<const ScanPath> paths) {
     Stopwatch watch(clock_, timing.motion_s);
-    const PathCheck check = motion_.CheckPath(clearance, path);
-    return SelectionTools::Check{check.verdict, check.path};
+    std::vector<SelectionTools::Check> checks;
+    for (const PathCheck& check : motion_.CheckPaths(clearance, paths, settings_.threads))
+      checks.push_back({check.verdict, check.path});
+    return checks;
   };
+  if (motion_.ChecksSlowly()) tools.most_checked = size_t{8} * static_cast<size_t>(settings_.threads);
   tools.plan_motion = [this, &request, &clearance, &timing](const ScanPath& path) {
     Stopwatch watch(clock_, timing.motion_s);
     Stopwatch plan_watch(clock_, timing.plans_s.emplace_back(0.0));

@@ -1,6 +1,7 @@
 #include "services/planner/scan_selection.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace nbs {
@@ -13,6 +14,7 @@ struct Entry {
   RatedCandidate rated;
   double score = 0.0;
   Stage stage = Stage::kEstimated;
+  std::optional<SelectionTools::Check> check;  ///< Of the whole path, once it is known.
   bool partly = false;
 };
 
@@ -48,14 +50,48 @@ class Heap {
     return entry;
   }
   bool empty() const { return entries_.empty(); }
+  const Entry& top() const { return entries_.front(); }
 
  private:
   std::vector<Entry> entries_;
 };
 
+/// Checks the path of a candidate, and ahead of time those of the candidates that come next if it fails.
+class PathChecker {
+ public:
+  explicit PathChecker(const SelectionTools& tools) : tools_(tools) {}
+
+  SelectionTools::Check Check(const Entry& entry, Heap& heap) {
+    if (entry.check) return *entry.check;
+    std::vector<Entry> known;
+    std::vector<Entry> next;
+    // What lies below a candidate that can be reached hardly ever comes.
+    while (!heap.empty() && next.size() + 1 < count_ && heap.top().stage != Stage::kChecked) {
+      Entry other = heap.Pop();
+      (other.check ? known : next).push_back(std::move(other));
+    }
+    for (Entry& other : known) heap.Push(std::move(other));
+    std::vector<ScanPath> paths = {entry.rated.candidate.path};
+    for (const Entry& other : next) paths.push_back(other.rated.candidate.path);
+    const std::vector<SelectionTools::Check> checks = tools_.check_paths(paths);
+    for (size_t i = 0; i < next.size(); ++i) {
+      next[i].check = checks.at(i + 1);
+      heap.Push(std::move(next[i]));
+    }
+    // The first often succeeds; after some failures more are likely.
+    count_ = std::min(2 * count_, tools_.most_checked);
+    return checks.at(0);
+  }
+
+ private:
+  const SelectionTools& tools_;
+  size_t count_ = 1;
+};
+
 /// Takes the top candidate one stage further. True if it is the next best scan; otherwise it is back on the heap or,
 /// with its verdict, in `result.rated`.
-bool Advance(Entry entry, double min_gain_nat, const SelectionTools& tools, Heap& heap, ScanSelection::Result& result) {
+bool Advance(Entry entry, double min_gain_nat, const SelectionTools& tools, PathChecker& checker, Heap& heap,
+             ScanSelection::Result& result) {
   RatedCandidate& rated = entry.rated;
   const auto reject = [&](Verdict verdict) {
     rated.verdict = verdict;
@@ -74,7 +110,7 @@ bool Advance(Entry entry, double min_gain_nat, const SelectionTools& tools, Heap
     return false;
   }
   if (entry.stage == Stage::kEvaluated) {
-    const SelectionTools::Check check = tools.check_path(rated.candidate.path);
+    const SelectionTools::Check check = checker.Check(entry, heap);
     if (check.verdict != Verdict::kReachable && check.verdict != Verdict::kPartly) return reject(check.verdict);
     entry.stage = Stage::kChecked;
     if (check.verdict == Verdict::kPartly) {
@@ -120,7 +156,8 @@ ScanSelection::Result ScanSelection::Select(const SelectionTools& tools, double 
   Heap heap;
   for (size_t i = 0; i < stack_.size(); ++i)
     heap.Push({{stack_[i], gains_nat.at(i), Verdict::kNotTried}, tools.calc_score(stack_[i], gains_nat[i])});
-  while (!heap.empty() && !result.found) Advance(heap.Pop(), min_gain_nat, tools, heap, result);
+  PathChecker checker(tools);
+  while (!heap.empty() && !result.found) Advance(heap.Pop(), min_gain_nat, tools, checker, heap, result);
   while (!heap.empty()) {
     Entry entry = heap.Pop();
     if (entry.rated.gain_nat < min_gain_nat) {

@@ -26,7 +26,10 @@ struct SelectionTools {
     Verdict verdict = Verdict::kReachable;
     ScanPath path;
   };
-  std::function<Check(const ScanPath&)> check_path;
+  std::function<std::vector<Check>(std::span<const ScanPath>)> check_paths;
+  /// At most so many are checked at a time: the one in question and those that come next if it fails. What is found out
+  /// about those is not used before they come.
+  size_t most_checked = 1;
 
   /// The motion from where the robot is, over the whole path: kReachable with a trajectory, or kNoMotion.
   struct Motion {

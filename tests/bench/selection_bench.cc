@@ -188,9 +188,11 @@ class Selector {
       ++rounds.in_full;
       return gain_nat;
     };
-    tools.check_path = [this, &clearance](const ScanPath& path) {
-      const PathCheck check = motion_.CheckPath(clearance, path);
-      return SelectionTools::Check{check.verdict, check.path};
+    tools.check_paths = [this, &clearance](std::span<const ScanPath> paths) {
+      std::vector<SelectionTools::Check> checks;
+      for (const PathCheck& check : motion_.CheckPaths(clearance, paths, kThreads))
+        checks.push_back({check.verdict, check.path});
+      return checks;
     };
     tools.plan_motion = [this, &clearance, seed](const ScanPath& path) {
       MotionPlanner::Result motion = motion_.Plan(clearance, X_WS_now_, path, seed);

@@ -39,7 +39,10 @@ struct MotionResult {
 class MotionBackend {
  public:
   virtual ~MotionBackend() = default;
+  /// Called by several threads at a time.
   virtual PathCheck CheckPath(const Clearance& clearance, const ScanPath& path) const = 0;
+  /// True if a check takes so long that threads are worth their start.
+  virtual bool ChecksSlowly() const { return false; }
   /// False if the robot could not be at one end of the path, or in its middle, even in empty space.
   virtual bool CouldDrive(const ScanPath& /*path*/) const { return true; }
   virtual MotionResult Plan(const Clearance& clearance, const RobotPosture& now, const ScanPath& path,

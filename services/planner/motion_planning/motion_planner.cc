@@ -1,7 +1,10 @@
 #include "services/planner/motion_planning/motion_planner.h"
 
+#include <algorithm>
+#include <atomic>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "common/runtime/error.h"
 #include "services/planner/motion_planning/arm_motion.h"
@@ -32,6 +35,27 @@ PathCheck MotionPlanner::CheckPath(const Clearance& clearance, const ScanPath& p
   CheckRigid(path.X_WS_start);
   CheckRigid(path.X_WS_end);
   return backend_->CheckPath(clearance, path);
+}
+
+bool MotionPlanner::ChecksSlowly() const { return backend_->ChecksSlowly(); }
+
+std::vector<PathCheck> MotionPlanner::CheckPaths(const Clearance& clearance, std::span<const ScanPath> paths,
+                                                 int threads) const {
+  std::vector<PathCheck> checks(paths.size());
+  std::atomic<size_t> next = 0;
+  const auto work = [&] {
+    for (size_t i = next++; i < paths.size(); i = next++) checks[i] = backend_->CheckPath(clearance, paths[i]);
+  };
+  for (const ScanPath& path : paths) {
+    CheckRigid(path.X_WS_start);
+    CheckRigid(path.X_WS_end);
+  }
+  const size_t most = ChecksSlowly() ? std::min(static_cast<size_t>(threads), paths.size()) : 1;
+  std::vector<std::jthread> others;
+  for (size_t i = 1; i < most; ++i) others.emplace_back(work);
+  work();
+  others.clear();
+  return checks;
 }
 
 RobotPosture MotionPlanner::MakeStartPosture(const ScanPath& first_path) const {

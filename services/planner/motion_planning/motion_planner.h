@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "common/config/run_config.h"
 #include "services/planner/motion_planning/motion_backend.h"
@@ -35,6 +37,16 @@ class MotionPlanner {
   ///
   /// @throws std::invalid_argument if a pose is not rigid.
   [[nodiscard]] PathCheck CheckPath(const Clearance& clearance, const ScanPath& path) const;
+
+  /// The same for several paths. Where a check is slow they are shared among threads, which do not change what is
+  /// found.
+  ///
+  /// @param threads  At least 1.
+  [[nodiscard]] std::vector<PathCheck> CheckPaths(const Clearance& clearance, std::span<const ScanPath> paths,
+                                                  int threads) const;
+
+  /// True if a check takes so long that it is worth to check several at a time.
+  bool ChecksSlowly() const;
 
   /// Whether the robot could be at both ends and in the middle of the path if space were empty but for what the cell
   /// puts there: a first sieve, much cheaper than CheckPath. A free-flying sensor always could.

@@ -39,7 +39,11 @@ struct Round {
     tools.calc_score = [&](const Candidate& candidate, double gain_nat) {
       return rating.CalcScore(candidate, gain_nat, Pose::Identity());
     };
-    tools.check_path = [](const ScanPath& path) { return SelectionTools::Check{Verdict::kReachable, path}; };
+    tools.check_paths = [](std::span<const ScanPath> paths) {
+      std::vector<SelectionTools::Check> checks;
+      for (const ScanPath& path : paths) checks.push_back({Verdict::kReachable, path});
+      return checks;
+    };
     tools.plan_motion = [](const ScanPath& path) { return SelectionTools::Motion{Verdict::kReachable, path, {}}; };
     rated = selection.Select(tools, 0.0).rated;
   }

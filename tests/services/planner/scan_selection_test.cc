@@ -14,6 +14,7 @@ struct MadeUpWorld {
   std::map<int, Verdict> checks;
   std::map<int, int> parts;  ///< Length of the part that can be reached.
   int motions_planned = 0;
+  int paths_checked = 0;
 
   static int Key(const ScanPath& path) { return static_cast<int>(std::lround(1000.0 * path.length_m())); }
 
@@ -21,6 +22,13 @@ struct MadeUpWorld {
     ScanPath path;
     path.X_WS_end.translation().x() = 1e-3 * length_mm;
     return path;
+  }
+
+  SelectionTools::Check Check(const ScanPath& path) const {
+    SelectionTools::Check check{Verdict::kReachable, path};
+    if (const auto found = checks.find(Key(path)); found != checks.end()) check.verdict = found->second;
+    if (check.verdict == Verdict::kPartly) check.path = MakePath(parts.at(Key(path)));
+    return check;
   }
 
   SelectionTools MakeTools() {
@@ -31,11 +39,11 @@ struct MadeUpWorld {
       return estimated;
     };
     tools.calc_gain = [this](const ScanPath& path) { return gains.at(Key(path)); };
-    tools.check_path = [this](const ScanPath& path) {
-      SelectionTools::Check check{Verdict::kReachable, path};
-      if (const auto found = checks.find(Key(path)); found != checks.end()) check.verdict = found->second;
-      if (check.verdict == Verdict::kPartly) check.path = MakePath(parts.at(Key(path)));
-      return check;
+    tools.check_paths = [this](std::span<const ScanPath> paths) {
+      std::vector<SelectionTools::Check> found;
+      for (const ScanPath& path : paths) found.push_back(Check(path));
+      paths_checked += static_cast<int>(paths.size());
+      return found;
     };
     tools.plan_motion = [this](const ScanPath& path) {
       ++motions_planned;
@@ -64,6 +72,34 @@ TEST(ScanSelection, TheHighestGainThatCanBeReachedWins) {
   ASSERT_TRUE(result.found);
   EXPECT_EQ(result.chosen.candidate.id, 2);
   EXPECT_EQ(world.motions_planned, 1);
+}
+
+TEST(ScanSelection, CheckingAheadChangesNothingButTheCountOfChecks) {
+  MadeUpWorld world;
+  std::vector<int> lengths_mm;
+  for (int k = 1; k <= 40; ++k) {
+    world.gains[10 * k] = (7 * k) % 41;
+    lengths_mm.push_back(10 * k);
+    if (k % 3 == 0) world.checks[10 * k] = k % 2 == 0 ? Verdict::kBlockedByUnknown : Verdict::kBlockedByObstacle;
+    if (k > 3 && k % 3 == 1) world.checks[10 * k] = Verdict::kPartly, world.parts[10 * k] = 10 * (k % 2 + 1);
+    if (k % 3 == 2) world.checks[10 * k] = Verdict::kSelfCollision;
+  }
+  std::vector<std::pair<int, Verdict>> rated[2];
+  int checked[2] = {};
+  for (const int ahead : {0, 1}) {
+    SelectionTools tools = world.MakeTools();
+    tools.most_checked = ahead == 0 ? 1 : 8;
+    ScanSelection selection;
+    selection.Add(MakeCandidates(lengths_mm));
+    world.paths_checked = 0;
+    for (const RatedCandidate& r : selection.Select(tools, 1.0).rated)
+      rated[ahead].emplace_back(r.candidate.id, r.verdict);
+    checked[ahead] = world.paths_checked;
+  }
+  EXPECT_EQ(rated[0], rated[1]);
+  EXPECT_GT(checked[0], 10);
+  EXPECT_GE(checked[1], checked[0]);
+  EXPECT_LT(checked[1], checked[0] + 8);
 }
 
 TEST(ScanSelection, BlockedByUnknownStaysAndBlockedByAnObstacleGoes) {

@@ -26,8 +26,8 @@ TEST(GroupMotions, WhatWasNeverExecutedIsNoMotion) { EXPECT_TRUE(GroupMotions({{
 TEST(AddPlanning, CountsTheRoundsAfterTheLastScanToo) {
   RunRecord record;
   record.scans.resize(2);
-  record.scans[1].timing = {0, 1, 1.0, 2.0, 3.0, 10.0, 16.0};
-  record.last_timing = {0, 2, 0.5, 0.0, 0.0, 1.0, 1.5};
+  record.scans[1].timing = {0, 1, 1.0, 2.0, 3.0, 10.0, 16.0, {}};
+  record.last_timing = {0, 2, 0.5, 0.0, 0.0, 1.0, 1.5, {}};
   TimeSplit split;
   AddPlanning(record, split);
   EXPECT_DOUBLE_EQ(split.selection_s, 6.5);
