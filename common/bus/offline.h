@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "common/bus/history.h"
 #include "common/runtime/node.h"
@@ -26,6 +28,15 @@ class StreamReader {
   std::unique_ptr<History> history_;
   int64_t next_ = 0;
 };
+
+/// All messages of one type that a run has left. @throws as StreamReader does.
+template <typename T>
+std::vector<T> ReadAll(const std::filesystem::path& run_folder) {
+  std::vector<T> all;
+  StreamReader reader(run_folder, StreamOf<T>());
+  while (auto message = reader.Next()) all.push_back(std::get<T>(std::move(*message)));
+  return all;
+}
 
 /// Folds a run folder's histories into a node until the node has finished or the stream that it needs next has no more
 /// messages. What the node publishes is dropped.

@@ -24,12 +24,12 @@ void StatusRecord::Close(const ServiceStatus& status, std::span<const uint8_t> e
   history_.Append(status.utime_us, encoded);
 }
 
-std::optional<ServiceStatus> ReadLastStatus(const std::filesystem::path& run_folder, const std::string& service) {
+std::optional<double> ReadBusyTime(const std::filesystem::path& run_folder, const std::string& service) {
   const std::filesystem::path file = FindFile(run_folder, service);
   if (!std::filesystem::exists(file)) return std::nullopt;
   const History history(file, StatusChannel(service), History::Access::kRead);
   if (history.size() == 0) return std::nullopt;
-  return DecodeStatus(history.Read(history.size() - 1));
+  return 1e-6 * static_cast<double>(DecodeStatus(history.Read(history.size() - 1)).busy_us);
 }
 
 }  // namespace nbs

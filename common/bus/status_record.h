@@ -30,7 +30,8 @@ class StatusRecord {
   ServiceState last_state_ = ServiceState::kStarting;
 };
 
-/// The last heartbeat that a service has left in a run folder; nullopt if there is none.
-std::optional<ServiceStatus> ReadLastStatus(const std::filesystem::path& run_folder, const std::string& service);
+/// How long a service says in its last heartbeat that it was busy, seconds; nullopt if it has left none in the run
+/// folder.
+std::optional<double> ReadBusyTime(const std::filesystem::path& run_folder, const std::string& service);
 
 }  // namespace nbs

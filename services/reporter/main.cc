@@ -16,19 +16,6 @@
 
 namespace {
 
-template <typename T>
-std::vector<T> ReadAll(const nbs::RunConfig& config) {
-  std::vector<T> all;
-  nbs::StreamReader reader(config.folder, nbs::StreamOf<T>());
-  while (auto message = reader.Next()) all.push_back(std::get<T>(std::move(*message)));
-  return all;
-}
-
-std::optional<double> FindBusyTime(const nbs::RunConfig& config, const char* service) {
-  const auto status = nbs::ReadLastStatus(config.folder, service);
-  return status ? std::optional(1e-6 * static_cast<double>(status->busy_us)) : std::nullopt;
-}
-
 /// Exit code 0 if the outputs are written, whatever the end of the run; 1 on bad input; 2 otherwise.
 int WriteOffline(const std::filesystem::path& run_folder) {
   try {
@@ -39,11 +26,12 @@ int WriteOffline(const std::filesystem::path& run_folder) {
                                [&meshes_W](const nbs::TriangleMesh& mesh_W) { meshes_W.push_back(mesh_W); });
     nbs::RunOffline(reporter, run_folder);
     nbs::MergeHistories(run_folder / "streams", run_folder / "bus.lcm");
-    const auto motions = nbs::GroupMotions(ReadAll<nbs::Trajectory>(config), ReadAll<nbs::RobotState>(config),
-                                           ReadAll<nbs::Execution>(config));
+    const auto motions =
+        nbs::GroupMotions(nbs::ReadAll<nbs::Trajectory>(run_folder), nbs::ReadAll<nbs::RobotState>(run_folder),
+                          nbs::ReadAll<nbs::Execution>(run_folder));
     nbs::Findings findings = truth.Find(reporter.mesh().MakeCompactMesh(), motions);
-    findings.time.mesh_s = FindBusyTime(config, "mesher");
-    findings.time.map_s = FindBusyTime(config, "voxelmap");
+    findings.time.mesh_s = nbs::ReadBusyTime(run_folder, "mesher");
+    findings.time.map_s = nbs::ReadBusyTime(run_folder, "voxelmap");
     nbs::AddPlanning(reporter.record(), findings.time);
     nbs::WriteOutputs(config, reporter, findings, {motions, meshes_W});
     return 0;
