@@ -29,7 +29,8 @@ std::optional<double> ReadBusyTime(const std::filesystem::path& run_folder, cons
   if (!std::filesystem::exists(file)) return std::nullopt;
   const History history(file, StatusChannel(service), History::Access::kRead);
   if (history.size() == 0) return std::nullopt;
-  return 1e-6 * static_cast<double>(DecodeStatus(history.Read(history.size() - 1)).busy_us);
+  const std::optional<ServiceStatus> last = DecodeStatus(history.Read(history.size() - 1));
+  return last ? std::optional(1e-6 * static_cast<double>(last->busy_us)) : std::nullopt;
 }
 
 }  // namespace nbs
