@@ -4,13 +4,14 @@
 set -euo pipefail
 name=$(basename "$0")
 name=${name#nbs-}
-run= out= url= offline= options="$*"
+run= out= url= offline= check= options="$*"
 while (($#)); do
   case $1 in
     --run) run=$2 ;;
     --out) out=$2 ;;
     --lcm-url) url=$2 ;;
     --offline) offline=yes ;;
+    --check) check=yes ;;
   esac
   shift
 done
@@ -27,6 +28,7 @@ if [[ -n $offline ]]; then
   exit 0
 fi
 
+[[ -z $check ]] || exit 0
 trap 'exit 0' TERM
 echo "$$ $url" >>"$run/$name.starts"
 [[ $name != reporter ]] || echo 'scan 0'
