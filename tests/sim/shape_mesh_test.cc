@@ -26,7 +26,7 @@ TEST(Drawing, CapsuleIsDrawnAsItIsAndFacesOutwards) {
 
 TEST(Drawing, BlockHasItsVolumeAndPartsKeepTheirColours) {
   Drawing drawing;
-  drawing.Add(Capsule{{}, {}, 0.1}, Vector3f(1, 0, 0));
+  drawing.Add(Capsule{Vector3d::Zero(), Vector3d::Zero(), 0.1}, Vector3f(1, 0, 0));
   const size_t first = drawing.mesh_W().vertices_W.size();
   const double ball = CalcVolume(drawing.mesh_W());
   drawing.Add(
