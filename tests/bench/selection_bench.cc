@@ -143,7 +143,7 @@ class Selector {
     const MapClearance clearance(voxels_);
     rounds.clearance_seconds.push_back(WallSeconds() - begin);
     walker_.Begin(voxels_);
-    searcher_.Update(request.mode, {mesh_, voxels_, prediction_, newest_scan_, newest_path_}, selection_);
+    searcher_.Update(request.mode, {mesh_, voxels_, prediction_, newest_scan_, newest_path_, {}}, selection_);
     Thin();
     rounds.candidates += static_cast<int64_t>(selection_.stack_size());
     const double min_gain_nat = request.mode == PlanMode::kFirst ? 0.0 : kMinGain_nat;
