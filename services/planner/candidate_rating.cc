@@ -1,12 +1,6 @@
 #include "services/planner/candidate_rating.h"
 
 namespace nbs {
-namespace {
-
-/// Paths over the prediction are ranked by every so many of its elements.
-constexpr uint32_t kRankingStep = 4;
-
-}  // namespace
 
 CandidateRating::CandidateRating(const RatingContext& context, const VoxelGrid& voxels,
                                  const SurfacePrediction& prediction)

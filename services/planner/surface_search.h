@@ -20,7 +20,7 @@ struct SurfaceSearchSettings {
   double alike_m = 0.02;         ///< Candidates nearer than this and …
   double alike_rad = 0.12;       ///< … turned by less than this are one.
   uint32_t seed_step = 16;       ///< Proposals are ranked by every so many elements of the prediction, …
-  uint32_t element_step = 4;     ///< … and improved by every so many.
+  uint32_t element_step = kRankingStep;  ///< … and improved by every so many.
   int threads = 2;
   std::function<bool(const ScanPath&)> could_drive;  ///< Other paths are not proposed; empty: all could be driven.
 };

@@ -8,6 +8,9 @@
 
 namespace nbs {
 
+/// Paths are ranked by every so many elements of the prediction, as good as by all.
+inline constexpr uint32_t kRankingStep = 4;
+
 /// An element of the prediction as a path sees it.
 struct Sighting {
   uint32_t element = 0;                               ///< Its number.

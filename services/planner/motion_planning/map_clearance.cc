@@ -20,8 +20,14 @@ MapClearance::MapClearance(const VoxelGrid& grid)
              grid.shape().origin_W + grid.shape().resolution_m * grid.shape().size.cast<double>()),
       to_occupied_(grid, Obstacles::kOccupied, MakeFieldSettings(grid.shape().resolution_m)),
       to_unknown_(grid, Obstacles::kOccupiedOrUnknown, MakeFieldSettings(grid.shape().resolution_m)),
-      occupied_(grid, Obstacles::kOccupied, DistanceFieldSettings().free_max_probability),
-      unknown_(grid, Obstacles::kOccupiedOrUnknown, DistanceFieldSettings().free_max_probability) {}
+      grid_(grid) {}
+
+const ObstaclePyramid& MapClearance::CellsOf(Obstacles obstacles) const {
+  Cells& cells = obstacles == Obstacles::kOccupied ? occupied_ : unknown_;
+  std::call_once(cells.made,
+                 [&] { cells.pyramid.emplace(grid_, obstacles, DistanceFieldSettings().free_max_probability); });
+  return *cells.pyramid;
+}
 
 double MapClearance::CalcDistance(const DistanceField& field, const Eigen::Vector3d& p_W) const {
   const double to_box = box_W_.exteriorDistance(p_W);
