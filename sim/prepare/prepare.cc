@@ -98,7 +98,7 @@ void CheckSize(const Eigen::AlignedBox3d& box_W, const std::string& object) {
 }
 
 /// What all services together hold for a voxel (measured: services/voxelmap/README.md).
-constexpr int64_t kBytesPerVoxel = 20;
+constexpr int64_t kBytesPerVoxel = 60;
 
 void CheckMemory(const GridShape& grid, int64_t memory_bytes) {
   const int64_t needed_bytes = kBytesPerVoxel * grid.cells();

@@ -126,10 +126,10 @@ TEST_F(Prepare, TinyObjectIsRefused) {
 }
 
 TEST_F(Prepare, MoreVoxelsThanMemoryAreRefused) {
-  request_.memory_bytes = 4'000'000;  // The box takes 60^3 voxels, 4.3 MB.
+  request_.memory_bytes = 12'000'000;  // The box takes 60^3 voxels, 13 MB.
   EXPECT_THAT(Refusal(), HasSubstr("216000 voxels of 0.005 m around the object would take 0.0 GB"));
   EXPECT_FALSE(std::filesystem::exists(request_.out));
-  request_.memory_bytes = 4'500'000;
+  request_.memory_bytes = 13'500'000;
   EXPECT_EQ(Refusal(), "accepted");
 }
 

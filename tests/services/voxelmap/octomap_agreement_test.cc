@@ -1,29 +1,17 @@
 // The whole map update against OctoMap's own, under the rules of insertPointCloud.
 
 #include <gtest/gtest.h>
-#include <octomap/OcTree.h>
 
 #include <cmath>
 
 #include "common/runtime/counter_random.h"
 #include "services/voxelmap/map_update.h"
+#include "tests/services/voxelmap/tree_of_our_model.h"
 
 namespace nbs {
 namespace {
 
 constexpr int kOriginKey = 32768;
-
-/// OctoMap with our weights, which are exact in its single precision.
-class TreeOfOurModel : public octomap::OcTree {
- public:
-  explicit TreeOfOurModel(double resolution_m) : octomap::OcTree(resolution_m) {
-    const LogOddsSteps steps = MakeLogOddsSteps({});
-    prob_hit_log = static_cast<float>(steps.hit / kLogOddsPerNat);
-    prob_miss_log = static_cast<float>(-steps.miss / kLogOddsPerNat);
-    clamping_thres_min = static_cast<float>(steps.lowest / kLogOddsPerNat);
-    clamping_thres_max = static_cast<float>(steps.highest / kLogOddsPerNat);
-  }
-};
 
 /// Stripes of a bumpy ball of 100 mm around W's origin, seen from everywhere.
 Stripe MakeStripe(const Profiler& profiler, uint64_t i) {
