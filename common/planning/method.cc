@@ -16,7 +16,7 @@ constexpr std::array<Method, 5> kMethods = {{
      .by_gain = false,
      .end = EndRule::kNothingLeft,
      .collision_test = false},
-    {.name = "S/IG", .search = CandidateSearch::kSphere, .gain = GainRule::kSum},
+    {.name = "S/IG", .search = CandidateSearch::kSphere},
     {.name = "S",
      .search = CandidateSearch::kSphere,
      .gain = GainRule::kUnknownCount,

@@ -20,6 +20,8 @@ TEST(Method, TheFiveOfSectionIVBDifferAsThePaperSays) {
   for (const char* name : {"BH/IG", "B/IG", "S/IG"}) {
     EXPECT_TRUE(FindMethod(name).by_gain && FindMethod(name).collision_test) << name;
     EXPECT_EQ(FindMethod(name).end, EndRule::kCompleteness) << name;
+    EXPECT_EQ(FindMethod(name).gain, FindMethod("BH/IG").gain)
+        << name << ": they differ in nothing but their candidates";
   }
   EXPECT_FALSE(FindMethod("B").by_gain || FindMethod("B").collision_test || FindMethod("S").collision_test);
   EXPECT_EQ(FindMethod("S").gain, GainRule::kUnknownCount);
