@@ -71,6 +71,7 @@ void ReadTable(const StrictReader& reader, CellConfig& cell) {
 
 void ReadArmOf(const std::filesystem::path& file, const StrictReader& reader, ArmConfig& arm) {
   static constexpr std::array<std::string_view, 2> kMethods = {"analytic", "numeric"};
+  static constexpr std::array<std::string_view, 2> kSearches = {"rrt_connect", "prm"};
   std::string urdf;
   reader.Read("urdf", urdf);
   if (urdf.empty()) reader.Fail("urdf", "an arm needs `urdf`, the name of its URDF file");
@@ -78,6 +79,7 @@ void ReadArmOf(const std::filesystem::path& file, const StrictReader& reader, Ar
   reader.Read("base_link", arm.base_link);
   reader.Read("flange_link", arm.flange_link);
   reader.ReadChoice("inverse_kinematics", "inverse kinematics", kMethods, arm.inverse_kinematics);
+  reader.ReadChoice("motion_search", "motion search", kSearches, arm.motion_search);
   reader.Read("X_OB", arm.X_OB);
   reader.Read("start_rad", arm.start_rad);
   reader.Read("max_rad_per_s2", arm.max_rad_per_s2);
@@ -102,8 +104,8 @@ void ReadRobot(const std::filesystem::path& file, const StrictReader& reader, St
   if (!arm) reader.Fail("arm", "the robot is an arm, but `arm` is missing");
   ReadArmOf(file,
             reader.Inner(*arm,
-                         {"urdf", "base_link", "flange_link", "inverse_kinematics", "X_OB", "start_rad",
-                          "max_rad_per_s2", "pose_bias_m", "pose_noise_m"},
+                         {"urdf", "base_link", "flange_link", "inverse_kinematics", "motion_search", "X_OB",
+                          "start_rad", "max_rad_per_s2", "pose_bias_m", "pose_noise_m"},
                          missing),
             cell.arm.emplace());
 }
@@ -198,6 +200,7 @@ std::string FormatArm(const std::optional<ArmConfig>& arm, const std::string& in
   add("base_link", QuoteYaml(arm->base_link));
   add("flange_link", QuoteYaml(arm->flange_link));
   add("inverse_kinematics", arm->inverse_kinematics);
+  add("motion_search", arm->motion_search);
   add("X_OB", FormatPose(arm->X_OB));
   add("start_rad", FormatList(arm->start_rad));
   add("max_rad_per_s2", FormatList(arm->max_rad_per_s2));

@@ -64,6 +64,7 @@ std::string Explain(Verdict verdict) {
 
 ArmMotion::ArmMotion(const RunConfig& config, const MotionSettings& settings)
     : settings_(settings),
+      search_(config.cell.arm.value().motion_search == "prm" ? SearchAlgorithm::kPrm : SearchAlgorithm::kRrtConnect),
       arm_(MakeSetup(config)),
       limits_(MakeArmLimits(config.cell, arm_.ik.model())),
       q_start_(ToJoints(config.cell.arm->start_rad)) {
@@ -151,6 +152,7 @@ std::vector<Joints> ArmMotion::FindWay(const Clearance& clearance, const Joints&
   }
   const ArmModel& model = arm_.ik.model();
   JointSearchSettings search;
+  search.algorithm = search_;
   search.iterations = settings_.joint_search_iterations;
   search.shortcuts = settings_.shortcuts;
   search.seed = seed;

@@ -10,7 +10,7 @@ namespace nbs {
 /// A six-axis arm that carries the sensor (section IV-C), from its URDF.
 ///
 /// A scan path is driven by continuous inverse kinematics, from either end, with the sensor's roll as the stripe
-/// allows. The way to it is a straight line in joint space if that is free, otherwise found by RRT-Connect.
+/// allows. The way to it is a straight line in joint space if that is free, otherwise found by RRT-Connect or PRM.
 class ArmMotion final : public MotionBackend {
  public:
   /// @throws ConfigError if the URDF cannot be used, or does not fit the cell.
@@ -30,6 +30,7 @@ class ArmMotion final : public MotionBackend {
                               uint64_t seed, size_t& drive) const;
 
   MotionSettings settings_;
+  SearchAlgorithm search_;
   ArmReachSettings reach_;
   ArmSetup arm_;
   ArmTimingLimits limits_;
