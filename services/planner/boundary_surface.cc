@@ -1,8 +1,9 @@
 #include "services/planner/boundary_surface.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <queue>
-#include <unordered_map>
 
 namespace nbs {
 
@@ -47,26 +48,24 @@ std::vector<uint32_t> BoundarySurface::GrowRegion(std::span<const uint32_t> seed
                                                   const Eigen::Vector3d& normal_W, double min_cosine) const {
   using Entry = std::pair<double, uint32_t>;  // way along edges, vertex
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  std::unordered_map<uint32_t, double> way;
-  for (uint32_t v : seeds) {
-    if (way.emplace(v, 0.0).second) open.emplace(0.0, v);
-  }
+  std::vector<double> way(positions_W_.size(), std::numeric_limits<double>::infinity());
+  std::vector<uint32_t> region;
+  const auto reach = [&](uint32_t v, double distance) {
+    if (way[v] <= distance) return;
+    if (std::isinf(way[v])) region.push_back(v);
+    way[v] = distance;
+    open.emplace(distance, v);
+  };
+  for (uint32_t v : seeds) reach(v, 0.0);
   while (!open.empty()) {
     const auto [distance, v] = open.top();
     open.pop();
     if (distance > way[v]) continue;
     for (uint32_t n : Neighbours(v)) {
       const double next = distance + (positions_W_[n] - positions_W_[v]).norm();
-      if (next > reach_m || Normal(n).dot(normal_W) < min_cosine) continue;
-      const auto [entry, is_new] = way.emplace(n, next);
-      if (!is_new && entry->second <= next) continue;
-      entry->second = next;
-      open.emplace(next, n);
+      if (next <= reach_m && Normal(n).dot(normal_W) >= min_cosine) reach(n, next);
     }
   }
-  std::vector<uint32_t> region;
-  region.reserve(way.size());
-  for (const auto& [v, distance] : way) region.push_back(v);
   std::sort(region.begin(), region.end());
   return region;
 }
