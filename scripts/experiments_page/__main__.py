@@ -53,7 +53,16 @@ def add_object(page, experiments, name):
     add_figure_3(page, experiments, name)
     page.heading("After the last scan", 3)
     page.table(*tables.make_quality_table(experiments, name))
+    add_motions(page, experiments, name)
     add_rims(page, experiments, name)
+
+
+def add_motions(page, experiments, name):
+    header, rows = tables.make_motion_table(experiments, name)
+    if rows:
+        page.heading("Motions", 3)
+        page.text("Every executed motion against the true scene, in steps of at most 10 mm: counts of contacts and of violated limits, summed over the seeds; robot min: simulated time.")
+        page.table(header, rows)
 
 
 def add_rims(page, experiments, name):

@@ -153,7 +153,7 @@ def make_means(experiments):
 def make_quality_table(experiments, object_name):
     """After the last scan of each run."""
     header = ["method", "seeds", "scans done", "ended because", "completeness %", "RMS error mm", "of what can be seen %", "slowest selection s", "refused measurements",
-              "contacts with the object", "nearest mm", "s of wall time"]
+              "s of wall time"]
     rows = []
     for method in experiments.methods:
         runs = experiments.of(object_name, method)
@@ -162,13 +162,27 @@ def make_quality_table(experiments, object_name):
         reports = [run.report for run in runs]
         ends = sorted({report["end_reason"] for report in reports})
         slowest = [max((scan["selection_s"] or 0.0 for scan in report["scans"]), default=None) for report in reports]
-        contacts = [report.get("contacts") for report in reports]
         rows.append([method, len(runs), mean_and_spread([report["n_scans"] for report in reports], 1), ", ".join(ends),
                      mean_and_spread([100 * report["completeness"] for report in reports], 2), mean_and_spread([report["rmse_mm"] for report in reports], 3),
                      mean_and_spread([100 * report["observable_coverage"] for report in reports], 2), f"{max(slowest):.2f}",
                      mean_and_spread([report["refused_measurements"] for report in reports], 0),
-                     NONE if None in contacts else sum(contacts), NONE if None in contacts else f"{min(report['nearest_mm'] for report in reports):.1f}",
                      mean_and_spread([report["wall_s"] for report in reports], 0)])
+    return header, rows
+
+
+def make_motion_table(experiments, object_name):
+    """The audit of every executed motion against the true scene: counts are sums over the seeds. Without rows if no run was audited."""
+    audited = {method: [run.report for run in experiments.of(object_name, method) if run.report.get("motion_faults")] for method in experiments.methods}
+    kinds = list(dict.fromkeys(kind for reports in audited.values() for report in reports for kind in report["motion_faults"]))
+    header = ["method", "seeds", "states"] + [kind.replace("_", " ") for kind in kinds] + ["nearest mm", "robot min", "plan ms, median", "plan ms, 95 % below"]
+    rows = []
+    for method, reports in audited.items():
+        if not reports:
+            continue
+        rows.append([method, len(reports), sum(report["states"] for report in reports)]
+                    + [sum(report["motion_faults"][kind]["count"] for report in reports) for kind in kinds]
+                    + [f"{min(report['nearest_mm'] for report in reports):.1f}", mean_and_spread([report["robot_time_s"] / 60 for report in reports], 1)]
+                    + [mean_and_spread([report["motion_plans"][key] for report in reports], 1) for key in ("median_ms", "p95_ms")])
     return header, rows
 
 

@@ -170,6 +170,17 @@ class Page(unittest.TestCase):
         self.assertIn("| method | rim m | occluded | seam |\n|---|---|---|---|\n| BH/IG | 1.00 | 0.50 | 0.25 |", page)
         self.assertIn("| method | missing % | occluded | open |\n|---|---|---|---|\n| BH/IG | 3.00 | 2.00 | 1.00 |", page)
 
+    def test_faults_of_motions_are_summed_over_the_seeds(self):
+        for seed, contacts in ((1, 2), (2, 3)):
+            faults = {"contact_object": {"count": contacts, "first": None}, "speed": {"count": 0, "first": None}}
+            self.add_run("putto", "BH-IG", seed, make_report([make_scan(0.3), make_scan(0.97)], motion_faults=faults, states=100 * seed, nearest_mm=50.0 / seed,
+                                                             robot_time_s=60.0 * seed, motion_plans={"median_ms": 4.0, "p95_ms": 8.0}))
+        self.add_run("putto", "S-IG", 1, make_report([make_scan(0.3), make_scan(0.97)], motion_faults=None))
+        page = self.make_page()
+        self.assertIn("| contact object | speed | nearest mm |", page)
+        self.assertIn("| BH/IG | 2 | 300 | 5 | 0 | 25.0 | 1.5 ± 0.7 | 4.0 ± 0.0 | 8.0 ± 0.0 |", page)
+        self.assertNotIn("| S/IG | 0 |", page)
+
     def test_html_is_escaped(self):
         page = document.Document("a < b")
         page.table(["<x>"], [["1 & 2"]])
