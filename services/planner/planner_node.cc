@@ -131,7 +131,7 @@ ScanSelection::Result PlannerNode::Select(const PlanRequest& request, PlanTiming
   timing.update_s = clock_() - update_start_s;
   {
     Stopwatch watch(clock_, timing.candidates_s);
-    const auto could_drive = [this](const ScanPath& path) { return motion_.CouldDrive(path); };
+    const auto could_drive = [this, &clearance](const ScanPath& path) { return motion_.CouldDrive(*clearance, path); };
     searcher_.Update(request.mode,
                      {mesh_, voxels_, prediction_, newest_scan_, newest_path_,
                       method_.collision_test ? could_drive : std::function<bool(const ScanPath&)>()},

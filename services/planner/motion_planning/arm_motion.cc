@@ -76,18 +76,17 @@ PathCheck ArmMotion::CheckPath(const Clearance& clearance, const ScanPath& path)
 }
 
 /// As it stands or rolled by half a turn, the two rolls that are tried first (arm_reach.h).
-bool ArmMotion::CouldDrive(const ScanPath& path) const {
+bool ArmMotion::CouldDrive(const Clearance& clearance, const ScanPath& path) const {
   const NothingSolid nothing;
   const Pose X_SR(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
-  const auto could_be_at = [&](const Pose& X_WS) {
-    return std::ranges::any_of(
-        arm_.ik.FindAll(arm_.collision.X_WB().inverse() * X_WS * arm_.X_FS.inverse()),
-        [&](const Joints& q) { return arm_.collision.FindTouch(nothing, q) == ArmTouch::kFree; });
+  const auto could_be_at = [&](const Clearance& space, const Pose& X_WS) {
+    return std::ranges::any_of(arm_.ik.FindAll(arm_.collision.X_WB().inverse() * X_WS * arm_.X_FS.inverse()),
+                               [&](const Joints& q) { return arm_.collision.FindTouch(space, q) == ArmTouch::kFree; });
   };
   const auto could_follow = [&](const Pose& X_SR_roll) {
     const Pose X_WS_middle = Interpolate(path.X_WS_start, path.X_WS_end, 0.5);
-    return could_be_at(X_WS_middle * X_SR_roll) && could_be_at(path.X_WS_start * X_SR_roll) &&
-           could_be_at(path.X_WS_end * X_SR_roll);
+    return could_be_at(clearance, X_WS_middle * X_SR_roll) && could_be_at(nothing, path.X_WS_start * X_SR_roll) &&
+           could_be_at(nothing, path.X_WS_end * X_SR_roll);
   };
   return could_follow(Pose::Identity()) || could_follow(X_SR);
 }

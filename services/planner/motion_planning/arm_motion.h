@@ -18,7 +18,7 @@ class ArmMotion final : public MotionBackend {
 
   PathCheck CheckPath(const Clearance& clearance, const ScanPath& path) const override;
   bool ChecksSlowly() const override { return true; }
-  bool CouldDrive(const ScanPath& path) const override;
+  bool CouldDrive(const Clearance& clearance, const ScanPath& path) const override;
   MotionResult Plan(const Clearance& clearance, const RobotPosture& now, const ScanPath& path,
                     uint64_t seed) const override;
   RobotPosture MakeStartPosture(const ScanPath& first_path) const override;

@@ -43,8 +43,8 @@ class MotionBackend {
   virtual PathCheck CheckPath(const Clearance& clearance, const ScanPath& path) const = 0;
   /// True if a check takes so long that threads are worth their start.
   virtual bool ChecksSlowly() const { return false; }
-  /// False if the robot could not be at one end of the path, or in its middle, even in empty space.
-  virtual bool CouldDrive(const ScanPath& /*path*/) const { return true; }
+  /// False if the robot could not be in the middle of the path, or at one of its ends even in empty space.
+  virtual bool CouldDrive(const Clearance& /*clearance*/, const ScanPath& /*path*/) const { return true; }
   virtual MotionResult Plan(const Clearance& clearance, const RobotPosture& now, const ScanPath& path,
                             uint64_t seed) const = 0;
   /// Where the robot is before its first motion.

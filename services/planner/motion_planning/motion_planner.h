@@ -48,9 +48,12 @@ class MotionPlanner {
   /// True if a check takes so long that it is worth to check several at a time.
   bool ChecksSlowly() const;
 
-  /// Whether the robot could be at both ends and in the middle of the path if space were empty but for what the cell
-  /// puts there: a first sieve, much cheaper than CheckPath. A free-flying sensor always could.
-  [[nodiscard]] bool CouldDrive(const ScanPath& path) const { return backend_->CouldDrive(path); }
+  /// Whether the robot could be in the middle of the path, and at both ends if space were empty but for what the cell
+  /// puts there: a first sieve, much cheaper than CheckPath. What is cut off at its ends leaves a path that can be
+  /// driven in part. A free-flying sensor always could.
+  [[nodiscard]] bool CouldDrive(const Clearance& clearance, const ScanPath& path) const {
+    return backend_->CouldDrive(clearance, path);
+  }
 
   /// Where the robot is before its first motion: the cell's joint values, or at the start of the first path.
   RobotPosture MakeStartPosture(const ScanPath& first_path) const;

@@ -98,6 +98,26 @@ TEST(ArmMotion, SearchesAWayRoundAWall) {
   EXPECT_GE(found, 1);
 }
 
+TEST(ArmMotion, CouldDriveWhatIsFreeInItsMiddleAndInReachAtItsEnds) {
+  const MotionPlanner planner(MakeKr16Run());
+  const ScanPath path = MakePathAbout(3.0);
+  const BoxWorld nothing;
+  EXPECT_TRUE(planner.CouldDrive(nothing, path));
+  BoxWorld world;
+  const auto block = [&](const Eigen::Vector3d& p_W) {
+    world.unknown = {MakeBox(p_W - Eigen::Vector3d::Constant(0.01), p_W + Eigen::Vector3d::Constant(0.01))};
+  };
+  block(path.X_WS_end.translation() + 0.1 * Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(planner.CheckPath(world, path).verdict, Verdict::kPartly);
+  EXPECT_TRUE(planner.CouldDrive(world, path)) << "a part of it is left";
+  block(0.5 * (path.X_WS_start.translation() + path.X_WS_end.translation()));
+  EXPECT_FALSE(planner.CouldDrive(world, path));
+  ScanPath too_long = path;
+  too_long.X_WS_end.translation().z() += 3.0;
+  too_long.X_WS_start.translation().z() -= 3.0;
+  EXPECT_FALSE(planner.CouldDrive(nothing, too_long));
+}
+
 TEST(ArmMotion, FirstPathOfTheCellCanBeDriven) {
   const RunConfig config = MakeKr16Run();
   BoxWorld world;
