@@ -81,6 +81,7 @@ void StreamingMesher::BeginScan(int32_t scan) {
 
 void StreamingMesher::EndScan() {
   Update();
+  SharpenRidges();
   std::sort(pending_.begin(), pending_.end());
   for (uint32_t id : pending_) {
     if (vertices_[id].state != Vertex::State::kPending) continue;

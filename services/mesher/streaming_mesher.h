@@ -8,6 +8,7 @@
 #include "common/sensing/profiler.h"
 #include "services/mesher/lag_queue.h"
 #include "services/mesher/measurement_map.h"
+#include "services/mesher/ridge_sharpener.h"
 #include "services/mesher/star_triangulation.h"
 #include "services/mesher/surface_fit.h"
 #include "services/mesher/vertex_store.h"
@@ -47,6 +48,7 @@ struct StreamingMesherSettings {
   float moved_noticeably_m =
       0.00005f;  ///< Before the end of the scan vertices are published anew only when moved further.
   SurfaceFitSettings fit;
+  RidgeSettings ridges;
   TriangulationSettings triangulation;
 };
 
@@ -63,8 +65,8 @@ struct MesherCounts {
 /// Measurements are summed up in a MeasurementMap. A measurement that has no vertex within R_d founds a pending one;
 /// vertices with enough support get a fitted surface, move onto it and become real; StarTriangulation joins them. Fits
 /// and triangles follow the sensor at a distance (fit_lag_m, star_lag_m), so that each stripe brings about the same
-/// work, and are brought up to date at the end of a scan. The mesh is a function of the stripes, wherever deltas are
-/// taken between them.
+/// work, and are brought up to date at the end of a scan, when vertices also move onto sharp ridges (RidgeSharpener).
+/// The mesh is a function of the stripes, wherever deltas are taken between them.
 class StreamingMesher {
  public:
   StreamingMesher(const Profiler& profiler, const StreamingMesherSettings& settings);
@@ -104,11 +106,17 @@ class StreamingMesher {
   void MarkForFit(uint32_t id);
   void MarkForStar(uint32_t id);
   void MarkStarsAround(uint32_t id);
+  void MarkStarsNear(const Eigen::Vector3f& p_W);
   void MarkForPublishing(uint32_t id);
   void Advance();
   void FitDueVertices();
   void FitPending(uint32_t id);
   void FitReal(uint32_t id);
+  bool Refit(uint32_t id);
+  void SetSurface(uint32_t id, const SurfaceFit& fit);
+  void MarkIfMoved(uint32_t id);
+  void SharpenRidges();
+  std::vector<RidgeSharpener::Place> Loosen(std::span<const uint32_t> ids);
   bool HasRoomFor(uint32_t id, const SurfaceFit& fit) const;
   void TriangulateDueVertices();
   double CalcRimLength();
@@ -128,6 +136,7 @@ class StreamingMesher {
   LagQueue fit_queue_, star_queue_;
   std::vector<uint32_t> due_;  // Taken out of a queue.
   std::vector<uint32_t> pending_, publish_due_;
+  std::vector<uint32_t> ridge_due_;  // Fitted since the last scan ended, and perhaps near a ridge.
   int64_t real_vertices_ = 0;
   /// Where measurements founded nothing, and when.
   struct Unsupported {

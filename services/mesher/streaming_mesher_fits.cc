@@ -28,12 +28,21 @@ void StreamingMesher::MarkForStar(uint32_t id) {
 
 void StreamingMesher::MarkStarsAround(uint32_t id) {
   Vertex& v = vertices_[id];
-  const Eigen::Vector3f p_W = v.star_p_W = v.p_W;
+  // A star that a vertex leaves without coming near another has to know; it stays in reach on a smaller move.
+  constexpr float kFar_m = 0.0005f;
+  const Eigen::Vector3f from_W = v.star_p_W;
+  const bool has_star = !from_W.isZero();
+  v.star_p_W = v.p_W;
   for (int i = 0; i < 3; ++i) v.star_normal_W[i] = static_cast<int16_t>(std::lround(kNormalUnit * v.normal_W[i]));
+  MarkStarsNear(v.p_W);
+  if (has_star && (v.p_W - from_W).squaredNorm() > kFar_m * kFar_m) MarkStarsNear(from_W);
+}
+
+void StreamingMesher::MarkStarsNear(const Eigen::Vector3f& p_W) {
   const float squared_reach = settings_.triangulation.max_edge_m * settings_.triangulation.max_edge_m;
-  vertices_.ForEachNear(p_W, settings_.triangulation.max_edge_m, [&](uint32_t other) {
-    const Vertex& w = vertices_[other];
-    if (w.state == Vertex::State::kReal && (w.p_W - p_W).squaredNorm() <= squared_reach) MarkForStar(other);
+  vertices_.ForEachNear(p_W, settings_.triangulation.max_edge_m, [&](uint32_t id) {
+    const Vertex& v = vertices_[id];
+    if (v.state == Vertex::State::kReal && (v.p_W - p_W).squaredNorm() <= squared_reach) MarkForStar(id);
   });
 }
 
@@ -68,10 +77,8 @@ void StreamingMesher::FitPending(uint32_t id) {
   }
   v.state = Vertex::State::kReal;
   ++real_vertices_;
-  v.support = fit->measurements;
-  v.normal_W = fit->normal_W;
+  SetSurface(id, *fit);
   v.best_cosine = fit->normal_W.dot(view_W);
-  vertices_.Move(id, fit->p_W);
   v.anchor_W = v.p_W;
   MarkStarsAround(id);
   MarkForPublishing(id);
@@ -95,16 +102,39 @@ bool StreamingMesher::HasRoomFor(uint32_t id, const SurfaceFit& fit) const {
   return room;
 }
 
-void StreamingMesher::FitReal(uint32_t id) {
+void StreamingMesher::SetSurface(uint32_t id, const SurfaceFit& fit) {
+  constexpr float kMost = 65535.0f;
   Vertex& v = vertices_[id];
+  v.support = fit.measurements;
+  v.normal_W = fit.normal_W;
+  v.curvature_per_m = static_cast<uint16_t>(std::min(fit.curvature_per_m, kMost));
+  vertices_.Move(id, fit.p_W);
+  // At a ridge so sharp that each side is only seen without the other, both are smooth and end there.
+  if (fit.curvature_per_m >= settings_.ridges.ridge_curvature_per_m || !triangulation_.IsSurrounded(id))
+    ridge_due_.push_back(id);
+}
+
+void StreamingMesher::FitReal(uint32_t id) {
+  if (vertices_[id].ridge != Vertex::Ridge::kNone) {
+    ridge_due_.push_back(id);
+  } else if (Refit(id)) {
+    MarkIfMoved(id);
+  }
+}
+
+bool StreamingMesher::Refit(uint32_t id) {
+  const Vertex& v = vertices_[id];
   samples_.clear();
   measurements_.Gather(v.anchor_W, settings_.fit.radius_m, v.normal_W, settings_.sample_cosine, samples_);
   MarkForPublishing(id);
   const auto fit = FitSurface(samples_, v.anchor_W, v.p_W, v.normal_W, settings_.fit);
-  if (!fit) return;
-  v.support = fit->measurements;
-  v.normal_W = fit->normal_W;
-  vertices_.Move(id, fit->p_W);
+  if (!fit) return false;
+  SetSurface(id, *fit);
+  return true;
+}
+
+void StreamingMesher::MarkIfMoved(uint32_t id) {
+  const Vertex& v = vertices_[id];
   const Eigen::Vector3f star_normal_W(v.star_normal_W[0], v.star_normal_W[1], v.star_normal_W[2]);
   const bool moved = (v.p_W - v.star_p_W).norm() > settings_.star_moved_m;
   const bool turned = v.normal_W.dot(star_normal_W) < kNormalUnit * std::cos(settings_.star_turned_rad);

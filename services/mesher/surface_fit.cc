@@ -35,6 +35,8 @@ struct Quadric {
   Vector6 q;
 
   float CalcHeight(float x, float y) const { return (q[0] * x + q[1] * y + q[3]) * x + (q[2] * y + q[4]) * y + q[5]; }
+  /// The larger of the principal curvatures where the slope is small, 1/mm, without its sign.
+  float CalcCurvature() const { return std::abs(q[0] + q[2]) + std::hypot(q[0] - q[2], q[1]); }
   Eigen::Vector3f CalcNormal_L() const { return Eigen::Vector3f(-q[3], -q[4], 1.0f).normalized(); }
 };
 
@@ -175,9 +177,12 @@ std::optional<SurfaceFit> FitSurface(std::span<const Sample> samples, const Eige
   }
   const float height = surface.q[5] / kMillimetre;
   if (!(std::abs(height) <= settings.height_tolerance_m)) return std::nullopt;
-  return SurfaceFit{anchor_W + surface.R_WL.col(2) * height, (surface.R_WL * surface.CalcNormal_L()).normalized(),
-                    std::sqrt(pass.squared_residual / pass.m[0]) / kMillimetre, pass.measurements,
-                    pass.near_weight / pass.m[0]};
+  return SurfaceFit{anchor_W + surface.R_WL.col(2) * height,
+                    (surface.R_WL * surface.CalcNormal_L()).normalized(),
+                    std::sqrt(pass.squared_residual / pass.m[0]) / kMillimetre,
+                    pass.measurements,
+                    pass.near_weight / pass.m[0],
+                    kMillimetre * surface.CalcCurvature()};
 }
 
 }  // namespace nbs

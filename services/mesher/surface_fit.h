@@ -25,6 +25,7 @@ struct SurfaceFit {
   int measurements = 0;                                ///< That carried it.
   float near_share = 0.0f;  ///< Share of the weight within R_n / 2: 0.58 in the middle and at the rim of a surface that
                             ///< is evenly measured, little at a point in the air beside one.
+  float curvature_per_m = 0.0f;  ///< The larger of the principal curvatures, without its sign.
 };
 
 /// Normal by weighted principal components of the samples within R_n, turned towards side_W. Nothing if the samples are

@@ -17,12 +17,20 @@ struct Vertex {
     kPending,  ///< A measured point that keeps its distance from all others, waiting for support.
     kReal,     ///< Has a surface; may be in triangles.
   };
+  enum class Ridge : uint8_t {
+    kNone,    ///< Lies on the fitted surface.
+    kBeside,  ///< Moved onto a plane that ends in a sharp ridge.
+    kOn,      ///< Moved onto, or founded on, a sharp ridge.
+    kLoose,   ///< Was on one and looks for its place anew.
+  };
   State state = State::kFree;
+  Ridge ridge = Ridge::kNone;
   bool fit_due = false;      ///< Measurements came near since the surface was fitted.
   bool star_due = false;     ///< The vertex or its surroundings changed since the star was made.
   bool publish_due = false;  ///< Something changed since it was published.
   bool published = false;
-  uint16_t measurements = 0;  ///< Its own: those to which it was the nearest vertex; 65535 at most.
+  uint16_t measurements = 0;     ///< Its own: those to which it was the nearest vertex; 65535 at most.
+  uint16_t curvature_per_m = 0;  ///< Of the fitted surface.
   /// Normal at which the stars around it were made, in 1/32767.
   std::array<int16_t, 3> star_normal_W{};
   Eigen::Vector3f p_W = Eigen::Vector3f::Zero();  ///< Metres.

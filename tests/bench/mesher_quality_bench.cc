@@ -107,6 +107,7 @@ void QualityBench(benchmark::State& state, const std::string& name, const Scanni
   state.counters["measured_%"] = 1e2 * quality.measured;
   state.counters["rms_mm"] = 1e3 * quality.rms_error_m;
   state.counters["worst_mm"] = 1e3 * quality.largest_error_m;
+  state.counters["ridge_mm"] = 1e3 * quality.ridge_gap_m;
   state.counters["edge_mm"] = 1e3 * quality.mean_edge_m;
   state.counters["longest_mm"] = 1e3 * quality.longest_edge_m;
 }
@@ -126,7 +127,8 @@ void Register(const std::string& name, const Scanning& scanning, bool with_peers
 }
 
 void RegisterAll(int file_count, char** files) {
-  for (const char* shape : {"sphere", "torus", "cube", "plate", "plates", "cup"}) Register(shape, {shape}, true);
+  for (const char* shape : {"sphere", "torus", "cube", "brick", "wedge", "plate", "plates", "cup"})
+    Register(shape, {shape}, true);
   for (const char* shape : {"plate", "plates", "cup"}) Register(std::string(shape) + "_noise_x4", {shape, 4.0}, false);
   for (const char* shape : {"sphere", "torus"}) {
     Register(std::string(shape) + "_offset_1mm", {shape, 1.0, 0.001}, false);

@@ -80,7 +80,7 @@ MeshQuality CalcTopologyFigures(const TriangleMesh& mesh_W) {
 }
 
 QualityOracle::QualityOracle(const Shape& shape, const Profiler& profiler, std::span<const Stripe> stripes, int samples)
-    : sheets_(shape.sheets), truth_W_(shape.mesh_W), grid_(kMeasuredWithin_m) {
+    : sheets_(shape.sheets), ridges_W_(shape.ridges_W), truth_W_(shape.mesh_W), grid_(kMeasuredWithin_m) {
   PlaceSamples(shape.mesh_W, samples);
   for (const Sample& sample : samples_) {
     int32_t& head = grid_.Touch(sample.p_W.cast<float>());
@@ -127,6 +127,7 @@ MeshQuality QualityOracle::Evaluate(const TriangleMesh& mesh_W) const {
   if (quality.triangles == 0) return quality;
   CompareVertices(mesh_W, quality);
   CompareSamples(mesh_W, quality);
+  CompareRidges(mesh_W, quality);
   CompareBorder(mesh_W, quality);
   return quality;
 }
@@ -177,6 +178,18 @@ void QualityOracle::CompareSamples(const TriangleMesh& mesh_W, MeshQuality& qual
   }
   quality.measured = static_cast<double>(measured) / static_cast<double>(samples_.size());
   if (measured > 0) quality.coverage = static_cast<double>(covered) / static_cast<double>(measured);
+}
+
+void QualityOracle::CompareRidges(const TriangleMesh& mesh_W, MeshQuality& quality) const {
+  const TriangleScene scene_W(mesh_W);
+  for (const Vector3d& p_W : ridges_W_) {
+    bool measured = true;
+    ForEachSampleNear(p_W, kMeasuredWithin_m,
+                      [&](int32_t k) { measured = measured && samples_[k].measurements >= kLeastMeasurements; });
+    if (!measured) continue;
+    const auto closest = scene_W.FindClosest(p_W, kFarthest_m);
+    quality.ridge_gap_m = std::max(quality.ridge_gap_m, closest ? closest->distance_m : kFarthest_m);
+  }
 }
 
 void QualityOracle::CompareBorder(const TriangleMesh& mesh_W, MeshQuality& quality) const {

@@ -27,6 +27,7 @@ struct MeshQuality {
   double longest_edge_m = 0.0;
   double rms_error_m = 0.0;      ///< Of the vertices.
   double largest_error_m = 0.0;  ///< Of the vertices; those further than 10 mm off count as 10 mm.
+  double ridge_gap_m = 0.0;      ///< Largest distance of the mesh from a ridge or corner that was measured.
   double coverage = 0.0;         ///< Of the surface that was measured at least three times.
   double measured = 0.0;         ///< Share of the whole surface that was.
 };
@@ -65,9 +66,11 @@ class QualityOracle {
   void CountMeasurements(const Profiler& profiler, std::span<const Stripe> stripes);
   void CompareVertices(const TriangleMesh& mesh_W, MeshQuality& quality) const;
   void CompareSamples(const TriangleMesh& mesh_W, MeshQuality& quality) const;
+  void CompareRidges(const TriangleMesh& mesh_W, MeshQuality& quality) const;
   void CompareBorder(const TriangleMesh& mesh_W, MeshQuality& quality) const;
 
   std::vector<int> sheets_;
+  std::vector<Eigen::Vector3d> ridges_W_;
   TriangleScene truth_W_;
   std::vector<Sample> samples_;
   // Samples by place: heads of lists that go on in next_.

@@ -120,15 +120,22 @@ TEST_P(SmoothShape, AnyOrderOfTheStripesInAnyScansCoversTheSame) {
 INSTANTIATE_TEST_SUITE_P(Shapes, SmoothShape, testing::Values("sphere", "torus"),
                          [](const auto& instance) { return std::string(instance.param); });
 
-TEST(Cube, VerticesLieWithinAMillimetreAlsoAtItsEdges) {
-  const Exhaustive scan("cube");
+class SharpShape : public testing::TestWithParam<const char*> {};
+
+TEST_P(SharpShape, IsMeshedWithinAMillimetreAlsoAtItsEdgesAndCorners) {
+  const Exhaustive scan(GetParam());
   const TriangleMesh mesh_W = Exhaustive::Fold(scan.profiler, scan.stripes);
   const MeshQuality quality = scan.oracle.Evaluate(mesh_W);
   ExpectManifold(quality);
   EXPECT_GE(quality.completeness, 0.999);
   EXPECT_LE(quality.largest_error_m, 0.001);
+  EXPECT_GT(quality.ridge_gap_m, 0.0);
+  EXPECT_LE(quality.ridge_gap_m, 0.001);
   EXPECT_LE(quality.longest_edge_m, kMaxEdge_m);
 }
+
+INSTANTIATE_TEST_SUITE_P(Shapes, SharpShape, testing::Values("cube", "brick"),
+                         [](const auto& instance) { return std::string(instance.param); });
 
 class Sheets : public testing::TestWithParam<std::tuple<const char*, double>> {};
 

@@ -1,6 +1,8 @@
 #include "tests/services/mesher/shapes.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -68,6 +70,12 @@ void AddFace(const Eigen::Vector3d& middle, const Eigen::Vector3d& u, const Eige
   }
 }
 
+/// From a to b, both ends included.
+void AddRidge(const Eigen::Vector3d& a, const Eigen::Vector3d& b, Shape& shape) {
+  const int count = static_cast<int>(std::ceil((b - a).norm() / 0.0005));
+  for (int i = 0; i <= count; ++i) shape.ridges_W.push_back(a + static_cast<double>(i) / count * (b - a));
+}
+
 }  // namespace
 
 Shape MakeRevolved(std::span<const ContourPoint> contour, bool ring, const std::function<int(size_t)>& sheet_of) {
@@ -107,7 +115,42 @@ Shape MakeBox(const Eigen::Vector3d& centre_W, const Eigen::Vector3d& half_m, in
     const Eigen::Vector3d v = half_m[(axis + 2) % 3] * Eigen::Vector3d::Unit((axis + 2) % 3);
     AddFace(centre_W + n, u, v, axis == 2 ? first_sheet : 0, margin_m, shape);
     AddFace(centre_W - n, v, u, axis == 2 ? first_sheet + 1 : 0, margin_m, shape);
+    for (const double side : {-1.0, 1.0}) {
+      AddRidge(centre_W + side * u + v - n, centre_W + side * u + v + n, shape);
+      AddRidge(centre_W + side * u - v - n, centre_W + side * u - v + n, shape);
+    }
   }
+  return shape;
+}
+
+Shape MakePrism(std::span<const Eigen::Vector2d> polygon_m, double half_height_m) {
+  Shape shape;
+  const Eigen::Vector3d up = half_height_m * Eigen::Vector3d::UnitZ();
+  const auto at = [&](size_t i) {
+    const Eigen::Vector2d& p = polygon_m[i % polygon_m.size()];
+    return Eigen::Vector3d(p.x(), p.y(), 0.0);
+  };
+  for (size_t i = 0; i < polygon_m.size(); ++i) {
+    const Eigen::Vector3d half = 0.5 * (at(i + 1) - at(i));
+    AddFace(at(i) + half, half, up, 0, 0.0, shape);
+    for (const double side : {-1.0, 1.0}) AddRidge(at(i) + side * up, at(i + 1) + side * up, shape);
+    AddRidge(at(i) - up, at(i) + up, shape);
+  }
+  for (const double side : {-1.0, 1.0}) {
+    const auto first = static_cast<uint32_t>(shape.mesh_W.vertices_W.size());
+    for (size_t i = 0; i < polygon_m.size(); ++i) shape.mesh_W.vertices_W.push_back((at(i) + side * up).cast<float>());
+    for (uint32_t i = 1; i + 1 < polygon_m.size(); ++i) {
+      const uint32_t b = first + i, c = b + 1;
+      shape.mesh_W.triangles.push_back({first, side > 0.0 ? b : c, side > 0.0 ? c : b});
+      shape.sheets.push_back(0);
+    }
+  }
+  return shape;
+}
+
+Shape Turn(const Eigen::Matrix3d& R, Shape shape) {
+  for (Eigen::Vector3f& v : shape.mesh_W.vertices_W) v = R.cast<float>() * v;
+  for (Eigen::Vector3d& p_W : shape.ridges_W) p_W = R * p_W;
   return shape;
 }
 
@@ -133,6 +176,7 @@ Shape Join(const Shape& a, const Shape& b) {
   both.mesh_W.vertices_W.insert(both.mesh_W.vertices_W.end(), b.mesh_W.vertices_W.begin(), b.mesh_W.vertices_W.end());
   for (const auto& t : b.mesh_W.triangles) both.mesh_W.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   both.sheets.insert(both.sheets.end(), b.sheets.begin(), b.sheets.end());
+  both.ridges_W.insert(both.ridges_W.end(), b.ridges_W.begin(), b.ridges_W.end());
   return both;
 }
 
@@ -146,6 +190,13 @@ Shape MakeShapeByName(const std::string& name) {
   if (name == "plates")
     return Join(MakeBox({0.0, 0.0, 0.0045}, plate, 1, kMargin_m), MakeBox({0.0, 0.0, -0.0045}, plate, 3, kMargin_m));
   if (name == "cup") return MakeCup({});
+  const Eigen::Matrix3d askew =
+      (Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()))
+          .toRotationMatrix();
+  if (name == "brick") return Turn(askew, MakeBox(Eigen::Vector3d::Zero(), {0.045, 0.025, 0.01}, 0, 1.0));
+  if (name == "wedge")
+    return Turn(askew,
+                MakePrism(std::array<Eigen::Vector2d, 3>{{{-0.03, -0.02}, {0.03, -0.02}, {0.0026, 0.0268}}}, 0.03));
   Shape shape;
   shape.mesh_W = name == "statue" ? MakeStatue() : ReadMesh(name);
   shape.sheets.assign(shape.mesh_W.triangles.size(), 0);

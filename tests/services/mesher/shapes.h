@@ -17,6 +17,8 @@ namespace nbs {
 struct Shape {
   TriangleMesh mesh_W;
   std::vector<int> sheets;  ///< One a triangle.
+  /// Points along the sharp edges that stand out, half a millimetre apart, the corners among them.
+  std::vector<Eigen::Vector3d> ridges_W;
 };
 
 /// A point of a contour in the half-plane of a solid of revolution, metres.
@@ -38,6 +40,12 @@ Shape MakeTorus(double radius_m, double tube_radius_m);
 /// only where `margin_m` away from the rim.
 Shape MakeBox(const Eigen::Vector3d& centre_W, const Eigen::Vector3d& half_m, int first_sheet, double margin_m);
 
+/// Upright prism over a convex polygon in the xy plane, counter-clockwise; from z = -half_height_m to half_height_m.
+Shape MakePrism(std::span<const Eigen::Vector2d> polygon_m, double half_height_m);
+
+/// Turns the shape about the origin.
+Shape Turn(const Eigen::Matrix3d& R, Shape shape);
+
 /// A cup that opens upwards: sheet 1 is the outer side, sheet 2 the inner one, `margin_m` away from the lip.
 struct CupSettings {
   double radius_m = 0.045;
@@ -50,7 +58,8 @@ Shape MakeCup(const CupSettings& settings);
 Shape Join(const Shape& a, const Shape& b);
 
 /// sphere (radius 60 mm), torus (50 mm, tube 20 mm), cube (80 mm), plate (100 x 100 x 3 mm), plates (two, 6 mm apart),
-/// cup, statue; anything else is the name of a mesh file.
+/// cup, statue, brick (90 x 50 x 20 mm) and wedge (60 mm long, corners of 55, 60 and 65 degrees), both turned askew;
+/// anything else is the name of a mesh file.
 ///
 /// @throws ConfigError as ReadMesh.
 Shape MakeShapeByName(const std::string& name);
