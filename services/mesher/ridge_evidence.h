@@ -15,7 +15,7 @@ struct RidgeEvidenceSettings {
       0.00025f;               ///< since cells mix both sides, but with two standard deviations no further than this.
   float nearest_m = 0.0016f;  ///< The nearest lies no further off a ridge than this,
   float nearest_to_corner_m = 0.0018f;  ///< or a corner.
-  float beside_radius_m = 0.0025f;      ///< Within it there are some on either side along the ridge,
+  float beside_radius_m = 0.0035f;      ///< Within it there are some on either side along the ridge,
   float beside_m = 0.0002f;             ///< at least so far.
 };
 
