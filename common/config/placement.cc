@@ -46,11 +46,14 @@ void Raise(const CellConfig& cell, const Eigen::Vector3d& along_W, Pose& X_WS) {
   if (missing > 0.0) X_WS.translation() += missing / along_W.z() * along_W;
 }
 
-ScanPath PlaceFirstPath(const GridShape& grid, const CellConfig& cell) {
+/// The path that looks along `view_W` and runs along `along_W`, over the box's whole extent but for what is too near to
+/// the table.
+///
+/// @param share  Of the extent that is left.
+ScanPath MakeFirstPath(const GridShape& grid, const CellConfig& cell, const Eigen::Vector3d& view_W,
+                       const Eigen::Vector3d& along_W, double& share) {
   const Eigen::Vector3d half_sizes = 0.5 * grid.resolution_m * grid.size.cast<double>();
   const Eigen::Vector3d center_W = grid.origin_W + half_sizes;
-  const Eigen::Vector3d view_W = cell.first_view_W.normalized();
-  const Eigen::Vector3d along_W = cell.first_along_W.normalized();
   const Eigen::Vector3d middle_W = center_W - view_W * (CalcHalfExtent(half_sizes, view_W) + cell.first_standoff_m);
   const Eigen::Vector3d reach_W = along_W * CalcHalfExtent(half_sizes, along_W);
   ScanPath path;
@@ -58,7 +61,27 @@ ScanPath PlaceFirstPath(const GridShape& grid, const CellConfig& cell) {
   path.X_WS_end = MakeLookPose(middle_W + reach_W, view_W, along_W);
   Raise(cell, along_W, path.X_WS_start);
   Raise(cell, along_W, path.X_WS_end);
+  const Eigen::Vector3d left_W = path.X_WS_end.translation() - path.X_WS_start.translation();
+  share = left_W.dot(reach_W) / (2.0 * reach_W.squaredNorm());
   return path;
+}
+
+/// Where an object is so low that most of a path beside it would be too near to the table, the sensor looks down at it.
+ScanPath PlaceFirstPath(const GridShape& grid, const CellConfig& cell) {
+  constexpr double kLeastShare = 0.7;
+  constexpr int kSteps = 16;
+  constexpr double kStep_rad = 0.08726646259971647;  // 5 degrees
+  const Eigen::Vector3d view_W = cell.first_view_W.normalized(), along_W = cell.first_along_W.normalized();
+  double share = 0.0;
+  const ScanPath level = MakeFirstPath(grid, cell, view_W, along_W, share);
+  const Eigen::Vector3d aside_W = view_W.cross(Eigen::Vector3d::UnitZ());
+  if (share >= kLeastShare || aside_W.norm() < kTolerance) return level;
+  for (int step = 1; step <= kSteps; ++step) {
+    const Eigen::AngleAxisd down(-step * kStep_rad, aside_W.normalized());
+    const ScanPath path = MakeFirstPath(grid, cell, down * view_W, down * along_W, share);
+    if (share >= kLeastShare) return path;
+  }
+  return level;
 }
 
 }  // namespace

@@ -53,7 +53,9 @@ struct CellConfig {
   std::optional<double> table_above_object_m;
   Eigen::Vector2d table_half_m = {5.0, 5.0};  ///< Half of its sizes along x and y, around the object's middle.
   // The first scan path: the sensor looks along `first_view_W` at the middle of the box, `first_standoff_m` away from
-  // the box's face, and moves along `first_along_W` over the box's whole extent in that direction.
+  // the box's face, and moves along `first_along_W` over the box's whole extent in that direction. If an object is so
+  // low that less than 70 % of that is high enough above the table, both are turned down in steps of 5 degrees until it
+  // is.
   Eigen::Vector3d first_view_W = Eigen::Vector3d::UnitY();
   Eigen::Vector3d first_along_W = Eigen::Vector3d::UnitZ();
   double first_standoff_m = 0.20;

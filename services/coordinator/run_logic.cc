@@ -53,7 +53,11 @@ RunStep GiveUp(const RunSettings& settings, const RunLogicState& state, const Pl
     return Finish(state, state.scan, false, "completeness_reached", ExplainCompleteness(settings, *state.last_scan));
   }
   const bool no_candidates = plan.reason.find(kStackIsEmpty) != std::string::npos;
-  return Finish(state, state.scan, first, no_candidates ? "no_candidates" : "nothing_reachable", plan.reason);
+  const std::string end_reason = no_candidates ? "no_candidates" : "nothing_reachable";
+  if (!first && state.last_scan && state.last_scan->edges == 0) {
+    return Finish(state, state.scan, true, end_reason, "No scan has seen any surface: does the first path look at it?");
+  }
+  return Finish(state, state.scan, first, end_reason, plan.reason);
 }
 
 PlanMode ChooseMode(const RunSettings& settings, const RunLogicState& state) {

@@ -1,6 +1,7 @@
 """What a user can get wrong: one clear sentence, exit code 1, nothing left behind."""
 
 import itertools
+import json
 import os
 import pathlib
 import re
@@ -120,8 +121,13 @@ class BadInput(WholeRunTest):
     def assert_cell_refused(self, says, **changes):
         self.assert_refused("--object", self.blob, "--cell", self.write_cell(**changes), says=says)
 
-    def test_robot_cell_as_it_stands_begins(self):
-        self.finish(self.start("scan", "--object", self.blob, "--cell", self.write_cell(), "--max-scans", 1, "--out", self.folder / "begins"))
+    def test_robot_cell_as_it_stands_begins_and_sees_an_object_that_is_low(self):
+        low = self.write("low.ply", encode_ply(*make_blob(height_m=0.06)))
+        for name, object_file in (("begins", self.blob), ("low", low)):
+            with self.subTest(name):
+                self.finish(self.start("scan", "--object", object_file, "--cell", self.write_cell(), "--max-scans", 1, "--out", self.folder / name))
+                report = json.loads((self.folder / name / "report.json").read_text())
+                self.assertGreater(report["observable_coverage"], 0.1)
 
     def test_urdf_that_is_missing_or_malformed_is_refused(self):
         self.assert_cell_refused(["nothing.urdf"], cell=[("kr16.urdf ", "nothing.urdf ")])
@@ -153,7 +159,10 @@ class BadInput(WholeRunTest):
 
     def test_first_path_out_of_reach_or_in_collision_is_refused(self):
         self.assert_cell_refused(["first scan path", "reach"], cell=[("position_m: [-1.0, 0, -0.30]", "position_m: [-3.0, 0, -0.30]")])
-        self.assert_cell_refused(["first scan path", "unknown"], cell=[("first_standoff_m: 0.20", "first_standoff_m: 0.01")])
+        near = self.write_cell(cell=[("first_standoff_m: 0.20", "first_standoff_m: 0.01")])
+        high = self.write("high.ply", encode_ply(*make_blob(height_m=0.5)))
+        self.assert_refused("--object", high, "--cell", near, says=["first scan path", "unknown"])
+        self.assert_refused("--object", self.blob, "--cell", near, says=["only", "of the first scan path"])
         self.assert_cell_refused(["first scan path", "table"], cell=[("first_above_table_m: 0.15", "first_above_table_m: 0.0"), ("first_along_W: [0, 0, 1]", "first_along_W: [0, 1, 0]")])
 
     def test_empty_folder_is_left_as_it_was(self):

@@ -69,6 +69,40 @@ TEST(Placement, TableGoesWithTheObjectAndNothingBelowItIsUnknown) {
   EXPECT_GT(config.first_path.X_WS_end.translation().z(), kBox_W.max().z());
 }
 
+// A box so high on a table, with a path upwards that stays 150 mm above the table.
+RunConfig ResolveOnTable(double height_m) {
+  RunConfig config;
+  config.cell.table_above_object_m = 0.0;
+  config.cell.first_view_W = {1, 0, 0};
+  config.cell.first_above_table_m = 0.15;
+  ResolvePlacement({Eigen::Vector3d(-0.06, -0.06, 0.0), Eigen::Vector3d(0.06, 0.06, height_m)}, config);
+  return config;
+}
+
+TEST(Placement, FirstPathLooksDownAtAnObjectTooLowToBeSeenFromTheSide) {
+  for (const double height_m : {0.03, 0.08, 0.12, 0.3}) {
+    const RunConfig config = ResolveOnTable(height_m);
+    const ScanPath& path = config.first_path;
+    const Eigen::Vector3d half = 0.5 * config.grid.resolution_m * config.grid.size.cast<double>();
+    const Eigen::Vector3d view_W = path.X_WS_start.linear().col(2), along_W = path.X_WS_start.linear().col(1);
+    const double extent_m = 2.0 * half.dot(along_W.cwiseAbs());
+    EXPECT_LT(view_W.z(), -0.01);
+    EXPECT_NEAR(view_W.y(), 0.0, 1e-12);
+    EXPECT_GE(path.length_m(), 0.7 * extent_m);
+    EXPECT_GE(path.X_WS_start.translation().z(), 0.15 - 1e-9);
+    // In the plane of the path and the view lies the box's middle, at a depth at which its face stands off by 0.2 m.
+    const Eigen::Vector3d to_middle_W = config.grid.origin_W + half - path.X_WS_end.translation();
+    EXPECT_NEAR(to_middle_W.dot(view_W.cross(along_W)), 0.0, 1e-9);
+    EXPECT_NEAR(to_middle_W.dot(view_W), 0.2 + half.dot(view_W.cwiseAbs()), 1e-9);
+  }
+}
+
+TEST(Placement, FirstPathLooksLevelAtAnObjectThatIsHighEnough) {
+  const ScanPath path = ResolveOnTable(0.5).first_path;
+  EXPECT_EQ(path.X_WS_start.linear().col(2), Eigen::Vector3d::UnitX());
+  EXPECT_NEAR(path.length_m(), 0.4, 1e-9);
+}
+
 TEST(Placement, BaseStandsRelativeToTheMiddleOfTheObjectsBottom) {
   CellConfig cell;
   cell.arm.emplace().X_OB.translation() = Eigen::Vector3d(-1.0, 0.1, -0.3);

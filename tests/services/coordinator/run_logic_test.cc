@@ -115,6 +115,15 @@ TEST(RunLogic, AFirstPathThatCannotBeReachedFailsTheRun) {
   EXPECT_EQ(Find<RunState>(step).scan, 0);
 }
 
+TEST(RunLogic, ARunThatHasSeenNothingFails) {
+  RunLogicState state = MakeState(Awaiting::kPlan, 1, PlanMode::kHole);
+  state.last_scan = MeshScan{};
+  const Plan plan = MakePlan(1, PlanMode::kHole, false, std::string(kStackIsEmpty));
+  EXPECT_TRUE(Find<RunState>(Advance(kSettings, state, plan)).failed);
+  state.last_scan->edges = 3;
+  EXPECT_FALSE(Find<RunState>(Advance(kSettings, state, plan)).failed);
+}
+
 TEST(RunLogic, AnExecutedTrajectoryAwaitsTheMesh) {
   const RunStep step =
       Advance(kSettings, MakeState(Awaiting::kExecution, 3, PlanMode::kBoundary), Execution{800, 3, true, ""});
