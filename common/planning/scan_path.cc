@@ -3,6 +3,19 @@
 #include <array>
 
 namespace nbs {
+namespace {
+
+/// Half a turn about z, without rounding.
+Pose Roll(const Pose& X_WS) {
+  Pose X = X_WS;
+  X.linear().col(0) = -X_WS.linear().col(0);
+  X.linear().col(1) = -X_WS.linear().col(1);
+  return X;
+}
+
+}  // namespace
+
+ScanPath RollPath(const ScanPath& path) { return {Roll(path.X_WS_start), Roll(path.X_WS_end)}; }
 
 std::string_view ToString(CandidateSource source) {
   constexpr std::array<std::string_view, 4> kNames = {"first", "boundary", "hole", "sphere"};

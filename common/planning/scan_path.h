@@ -17,6 +17,10 @@ struct ScanPath {
   double length_m() const { return (X_WS_end.translation() - X_WS_start.translation()).norm(); }
 };
 
+/// The same line with the sensor turned by half a turn about its viewing axis: the same light planes, their points in
+/// reverse order. A camera then stands on the other side of them.
+ScanPath RollPath(const ScanPath& path);
+
 /// Where a candidate comes from.
 enum class CandidateSource : uint8_t { kFirst = 0, kBoundary = 1, kHole = 2, kSphere = 3 };
 

@@ -57,7 +57,7 @@ void CandidateSearcher::Update(PlanMode mode, const SearchInput& input, ScanSele
 
 std::vector<Candidate> CandidateSearcher::FindCandidates(PlanMode mode, const SearchInput& input,
                                                          ScanSelection& selection) {
-  if (mode == PlanMode::kFirst) return {{.source = CandidateSource::kFirst, .path = config_.first_path}};
+  if (mode == PlanMode::kFirst) return FindFirst();
   if (mode == PlanMode::kSphere) {
     if (std::exchange(sphere_proposed_, true)) return {};
     return FindSphereCandidates(MakeObjectBox(config_), input.newest_scan);
@@ -73,6 +73,14 @@ std::vector<Candidate> CandidateSearcher::FindCandidates(PlanMode mode, const Se
   if (std::exchange(holes_detected_, true)) return {};
   selection.Drop(CandidateSource::kBoundary);
   return FindHoleCandidates(BoundarySurface(input.mesh), input.newest_scan, config_.cell.profiler);
+}
+
+/// What the sensor sees matters less than that it can be there: with a camera it may stand on either side.
+std::vector<Candidate> CandidateSearcher::FindFirst() const {
+  std::vector<Candidate> candidates = {{.source = CandidateSource::kFirst, .path = config_.first_path}};
+  if (config_.cell.profiler.camera_baseline_m == 0.0) return candidates;
+  candidates.push_back({.source = CandidateSource::kFirst, .rank = 1, .path = RollPath(config_.first_path)});
+  return candidates;
 }
 
 std::vector<Candidate> CandidateSearcher::FindOverPrediction(PlanMode mode, const SearchInput& input) const {

@@ -39,6 +39,7 @@ class CandidateSearcher {
 
  private:
   std::vector<Candidate> FindCandidates(PlanMode mode, const SearchInput& input, ScanSelection& selection);
+  std::vector<Candidate> FindFirst() const;
   std::vector<Candidate> FindOverPrediction(PlanMode mode, const SearchInput& input) const;
   std::vector<Candidate> FindBesideBoundaries(const SearchInput& input, ScanSelection& selection) const;
 

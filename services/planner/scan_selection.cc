@@ -1,6 +1,7 @@
 #include "services/planner/scan_selection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -35,6 +36,12 @@ bool StaysOnStack(Verdict verdict) {
     default:
       return false;
   }
+}
+
+/// True if one path sees otherwise than the other because its stripe lies askew to the other's.
+bool IsAskew(const ScanPath& a, const ScanPath& b) {
+  constexpr double kSameStripe = 1e-6;
+  return std::abs(a.X_WS_start.linear().col(0).dot(b.X_WS_start.linear().col(0))) < 1.0 - kSameStripe;
 }
 
 class Heap {
@@ -113,8 +120,8 @@ bool Advance(Entry entry, double min_gain_nat, const SelectionTools& tools, Path
     const SelectionTools::Check check = checker.Check(entry, heap);
     if (check.verdict != Verdict::kReachable && check.verdict != Verdict::kPartly) return reject(check.verdict);
     entry.stage = Stage::kChecked;
-    if (check.verdict == Verdict::kPartly) {
-      entry.partly = true;
+    entry.partly = check.verdict == Verdict::kPartly;
+    if (entry.partly || IsAskew(check.path, rated.candidate.path)) {
       rated.candidate.path = check.path;
       rate();
     }

@@ -34,6 +34,9 @@ std::vector<uint32_t> ChooseSeeds(std::span<const SurfaceElement> elements, doub
   return seeds;
 }
 
+/// True if it matters on which side of the stripe the camera stands: a sensor rolled by half a turn sees otherwise.
+bool HasCamera(const Profiler& profiler) { return profiler.camera_baseline_m != 0.0; }
+
 /// The path straight on over a strip if the robot could drive it, otherwise those from aside that it could.
 void AddDrivable(const Strip& strip, double standoff_m, const SurfaceSearchSettings& settings,
                  std::vector<ScanPath>& paths) {
@@ -52,7 +55,7 @@ void AddDrivable(const Strip& strip, double standoff_m, const SurfaceSearchSetti
 }
 
 /// The paths over the patch around a seed.
-void AddSeedPaths(std::span<const SurfaceElement> elements, const SurfaceElement& seed, double standoff_m,
+void AddSeedPaths(std::span<const SurfaceElement> elements, const SurfaceElement& seed, const Profiler& profiler,
                   const SurfaceSearchSettings& settings, std::vector<ScanPath>& paths) {
   Eigen::Vector3d mean_W = Eigen::Vector3d::Zero(), normal_W = Eigen::Vector3d::Zero();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
@@ -77,19 +80,22 @@ void AddSeedPaths(std::span<const SurfaceElement> elements, const SurfaceElement
     if (std::abs(along_W.dot(normal_W)) > 0.5) continue;  // A patch without extent has the normal for an axis.
     for (double extent_m : {settings.short_m, settings.long_m}) {
       const Strip strip{seed.p_W.cast<double>() + mean_W, normal_W, along_W, extent_m};
-      AddDrivable(strip, standoff_m, settings, paths);
+      AddDrivable(strip, profiler.standoff_m, settings, paths);
+      if (!HasCamera(profiler)) continue;
+      AddDrivable({strip.p_W, strip.normal_W, -strip.along_W, extent_m}, profiler.standoff_m, settings, paths);
     }
   }
 }
 
 /// The ways in which a path is varied, each by the scale or against it: its middle along x, y, z of S; turned about x,
-/// y, z of S around the point it looks at; lengthened.
+/// y, z of S around the point it looks at; lengthened. With a camera also: rolled by half a turn.
 constexpr int kMoves = 14;
 
 ScanPath Move(const ScanPath& path, int move, double scale, double standoff_m, const PathLimits& limits) {
   constexpr std::array<double, 3> kShift_m = {0.06, 0.06, 0.04};
   constexpr std::array<double, 3> kTurn_rad = {0.3, 0.3, 0.4};
   constexpr double kLengthen_m = 0.12;
+  if (move == kMoves) return RollPath(path);
   const int kind = move / 2, axis = kind % 3;
   const double by = move % 2 == 0 ? scale : -scale;
   Eigen::Matrix3d R_WS = path.X_WS_start.linear();
@@ -132,13 +138,21 @@ std::vector<ScanPath> TakeBest(std::vector<Proposal> proposals, size_t count) {
   return best;
 }
 
-/// The first of `sorted` that are not alike, at most `count`.
-std::vector<Proposal> TakeUnlike(const std::vector<Proposal>& sorted, size_t count, double alike_m, double alike_rad) {
+/// True if two paths have the sensor on the same side of the stripe.
+bool IsSameRoll(const ScanPath& a, const ScanPath& b) {
+  return a.X_WS_start.linear().col(1).dot(b.X_WS_start.linear().col(1)) > 0.0;
+}
+
+/// The first of `sorted` that are not alike, at most `count`; with `by_roll` two that are rolled by half a turn are
+/// not.
+std::vector<Proposal> TakeUnlike(const std::vector<Proposal>& sorted, size_t count, double alike_m, double alike_rad,
+                                 bool by_roll = false) {
   std::vector<Proposal> taken;
   for (const Proposal& proposal : sorted) {
     if (taken.size() >= count) break;
     const auto is_alike = [&](const Proposal& other) {
-      return AreAlike(proposal.path, other.path, alike_m, alike_rad);
+      return AreAlike(proposal.path, other.path, alike_m, alike_rad) &&
+             (!by_roll || IsSameRoll(proposal.path, other.path));
     };
     if (std::ranges::none_of(taken, is_alike)) taken.push_back(proposal);
   }
@@ -154,9 +168,10 @@ std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, cons
     return Rate(paths, view.CalcGains(prediction, paths, voxel_m, settings.threads, element_step));
   };
   const std::span<const SurfaceElement> elements = prediction.elements();
+  const int moves = HasCamera(profiler) ? kMoves + 1 : kMoves;
   std::vector<ScanPath> paths;
   for (uint32_t seed : ChooseSeeds(elements, settings.seed_spacing_m))
-    AddSeedPaths(elements, elements[seed], profiler.standoff_m, settings, paths);
+    AddSeedPaths(elements, elements[seed], profiler, settings, paths);
   std::vector<Proposal> proposals =
       rate(TakeBest(rate(paths, settings.seed_step), settings.max_candidates), settings.element_step);
   SortByGain(proposals);
@@ -165,7 +180,7 @@ std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, cons
     double scale = 1.0;
     for (int round = 0; round < settings.rounds; ++round) {
       std::vector<ScanPath> moved;
-      for (int move = 0; move < kMoves; ++move) {
+      for (int move = 0; move < moves; ++move) {
         const ScanPath path = Move(best.path, move, scale, profiler.standoff_m, settings.limits);
         if (!settings.could_drive || settings.could_drive(path)) moved.push_back(path);
       }
@@ -180,7 +195,7 @@ std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, cons
   SortByGain(proposals);
   std::vector<ScanPath> found;
   for (const Proposal& proposal :
-       TakeUnlike(proposals, settings.max_candidates, settings.alike_m, settings.alike_rad)) {
+       TakeUnlike(proposals, settings.max_candidates, settings.alike_m, settings.alike_rad, HasCamera(profiler))) {
     if (proposal.gain_nat > 0.0) found.push_back(proposal.path);
   }
   return found;

@@ -29,7 +29,8 @@ struct SurfaceSearchSettings {
 /// place of the quadratic patch).
 ///
 /// Seeds are spread over the elements. Around each the path runs along the first or second principal axis of the patch,
-/// looks along its mean normal and keeps the working stand-off; where the robot could not be, it looks from aside. The
+/// looks along its mean normal and keeps the working stand-off; where the robot could not be, it looks from aside. A
+/// sensor with a camera sees otherwise when it is rolled by half a turn: then both rolls are proposed. The
 /// best proposals are then improved: shifted, turned, lengthened, moved nearer or away, as long as the gain grows. All
 /// that come near the best stay candidates, because the robot may not reach the best.
 ///

@@ -1,5 +1,7 @@
 #include "services/planner/motion_planning/arm_motion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 
@@ -69,13 +71,14 @@ ArmMotion::ArmMotion(const RunConfig& config, const MotionSettings& settings)
       limits_(MakeArmLimits(config.cell, arm_.ik.model())),
       q_start_(ToJoints(config.cell.arm->start_rad)) {
   reach_.min_part_m = settings.min_part_m;
+  reach_.half_turns = config.cell.profiler.camera_baseline_m == 0.0;
 }
 
 PathCheck ArmMotion::CheckPath(const Clearance& clearance, const ScanPath& path) const {
   return CheckArmPath(arm_, clearance, path, reach_);
 }
 
-/// As it stands or rolled by half a turn, the two rolls that are tried first (arm_reach.h).
+/// At the rolls that are tried first (arm_reach.h).
 bool ArmMotion::CouldDrive(const Clearance& clearance, const ScanPath& path) const {
   const NothingSolid nothing;
   const Pose X_SR(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
@@ -88,7 +91,7 @@ bool ArmMotion::CouldDrive(const Clearance& clearance, const ScanPath& path) con
     return could_be_at(clearance, X_WS_middle * X_SR_roll) && could_be_at(nothing, path.X_WS_start * X_SR_roll) &&
            could_be_at(nothing, path.X_WS_end * X_SR_roll);
   };
-  return could_follow(Pose::Identity()) || could_follow(X_SR);
+  return could_follow(Pose::Identity()) || (reach_.half_turns && could_follow(X_SR));
 }
 
 RobotPosture ArmMotion::MakeStartPosture(const ScanPath&) const {
@@ -107,10 +110,19 @@ std::string ArmMotion::FindStartFault(const Clearance& clearance, const ScanPath
     case ArmTouch::kFree:
       break;
   }
-  const MotionResult first = Plan(clearance, MakeStartPosture(first_path), first_path, 0);
-  if (first.found()) return {};
-  return "the first scan path cannot be driven, " + Explain(first.verdict) +
-         ": move the arm's base (X_OB) or the path (first_view_W, first_standoff_m)";
+  return FindPathFault(clearance, first_path);
+}
+
+std::string ArmMotion::FindPathFault(const Clearance& clearance, const ScanPath& first_path) const {
+  constexpr double kLeastShare = 0.5;
+  const std::string remedy = ": move the arm's base (X_OB) or the path (first_view_W, first_standoff_m)";
+  const auto plan = [&](const ScanPath& path) { return Plan(clearance, MakeStartPosture(path), path, 0); };
+  MotionResult first = plan(first_path);
+  if (!first.found() && !reach_.half_turns) first = plan(RollPath(first_path));
+  if (!first.found()) return "the first scan path cannot be driven, " + Explain(first.verdict) + remedy;
+  if (first.path.length_m() >= kLeastShare * first_path.length_m()) return {};
+  return fmt::format("only {:.2f} m of the first scan path of {:.2f} m can be driven{}", first.path.length_m(),
+                     first_path.length_m(), remedy);
 }
 
 MotionResult ArmMotion::Plan(const Clearance& clearance, const RobotPosture& now, const ScanPath& path,

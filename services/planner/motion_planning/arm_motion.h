@@ -25,6 +25,7 @@ class ArmMotion final : public MotionBackend {
   std::string FindStartFault(const Clearance& clearance, const ScanPath& first_path) const override;
 
  private:
+  std::string FindPathFault(const Clearance& clearance, const ScanPath& first_path) const;
   std::optional<Joints> FindEscape(const Clearance& clearance, const Joints& q_now) const;
   std::vector<Joints> FindWay(const Clearance& clearance, const Joints& q_from, const std::vector<ArmDrive>& drives,
                               uint64_t seed, size_t& drive) const;

@@ -192,13 +192,16 @@ class Rolls {
  private:
   void Look(double skew_rad) {
     const ScanPath turned = TurnPath(path_, skew_rad);
-    for (const ScanPath& roll : {turned, RollPath(turned)}) {
-      if (only_longest_ && !whole_.empty()) return;
-      RollReach reach = FindRollReach(arm_, clearance_, roll, settings_, FindWanted());
-      std::vector<ArmDrive>& drives = reach.whole ? whole_ : parts_;
-      for (ArmDrive& drive : reach.drives) drives.push_back(std::move(drive));
-      if (skew_rad == 0.0 && reach.drives.empty()) stuck_.push_back(std::move(reach));
-    }
+    LookAt(turned, skew_rad);
+    if (settings_.half_turns) LookAt(RollPath(turned), skew_rad);
+  }
+
+  void LookAt(const ScanPath& roll, double skew_rad) {
+    if (only_longest_ && !whole_.empty()) return;
+    RollReach reach = FindRollReach(arm_, clearance_, roll, settings_, FindWanted());
+    std::vector<ArmDrive>& drives = reach.whole ? whole_ : parts_;
+    for (ArmDrive& drive : reach.drives) drives.push_back(std::move(drive));
+    if (skew_rad == 0.0 && reach.drives.empty()) stuck_.push_back(std::move(reach));
   }
 
   Wanted FindWanted() const {

@@ -21,6 +21,7 @@ struct ArmReach {
 
 struct ArmReachSettings {
   double min_part_m = 0.03;
+  bool half_turns = true;  ///< Rolled by half a turn the sensor sees the same. Not if its camera stands to one side.
   // Turns of the sensor about its viewing axis that are tried when neither the path as it stands nor half a turn lets
   // it be driven whole; the stripe then lies askew and is the narrower. Each also with half a turn.
   std::vector<double> skews_rad = {0.45, -0.45};
@@ -36,7 +37,8 @@ struct ArmSetup {
   double scan_m_per_s = 0.05;
 };
 
-/// Checks a scan path: as it stands and rolled by half a turn, then askew. The first two rolls that let all of it be
+/// Checks a scan path: as it stands and rolled by half a turn, then askew (half turns only where the sensor sees the
+/// same). The first two rolls that let all of it be
 /// driven are enough; if none does, the longest part stands for it. Otherwise the verdict is the one that is nearest to
 /// success among the rolls as it stands and by half a turn: unknown space, obstacle, self-collision, speed, joint
 /// limits, no inverse kinematics.

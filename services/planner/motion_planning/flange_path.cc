@@ -7,14 +7,6 @@ namespace {
 
 constexpr double kLargestRise = 1e-4;  // metres
 
-/// Half a turn about z, without rounding.
-Pose Roll(const Pose& X_WS) {
-  Pose X = X_WS;
-  X.linear().col(0) = -X_WS.linear().col(0);
-  X.linear().col(1) = -X_WS.linear().col(1);
-  return X;
-}
-
 }  // namespace
 
 std::vector<Pose> MakeFlangePath(const Pose& X_FS, const ScanPath& path) {
@@ -41,8 +33,6 @@ ScanPath CutPath(const ScanPath& path, double begin, double end) {
   };
   return {at(begin), at(end)};
 }
-
-ScanPath RollPath(const ScanPath& path) { return {Roll(path.X_WS_start), Roll(path.X_WS_end)}; }
 
 ScanPath ReversePath(const ScanPath& path) { return {path.X_WS_end, path.X_WS_start}; }
 

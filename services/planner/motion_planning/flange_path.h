@@ -17,10 +17,6 @@ std::vector<Pose> MakeFlangePath(const Pose& X_FS, const ScanPath& path);
 /// The part of a scan path between two fractions of it.
 ScanPath CutPath(const ScanPath& path, double begin, double end);
 
-/// The same line with the sensor turned by half a turn about its viewing axis: the same stripes, their points in
-/// reverse order.
-ScanPath RollPath(const ScanPath& path);
-
 /// The same line from its end to its start.
 ScanPath ReversePath(const ScanPath& path);
 

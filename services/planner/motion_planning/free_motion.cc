@@ -32,13 +32,14 @@ FreeMotion::FreeMotion(const RunConfig& config, const MotionSettings& settings)
     : settings_(settings),
       X_FS_(config.cell.X_FS),
       table_z_m_(config.cell.table_z_m),
+      half_turns_(config.cell.profiler.camera_baseline_m == 0.0),
       body_F_(MakeBody(config.cell)),
       limits_(MakeLimits(config.cell)),
       search_box_W_(MakeSearchBox(config.grid, settings.search_margin_m)) {}
 
 PathCheck FreeMotion::CheckPath(const Clearance& clearance, const ScanPath& path) const {
   const auto check = [&](const Clearance& all) {
-    const Reach reach = FindReach(body_F_, X_FS_, all, path, settings_.min_part_m);
+    const Reach reach = FindReach(body_F_, X_FS_, all, path, settings_.min_part_m, half_turns_);
     return PathCheck{reach.verdict, reach.paths.empty() ? path : reach.paths.front()};
   };
   return table_z_m_ ? check(AboveTable(clearance, *table_z_m_)) : check(clearance);
@@ -52,7 +53,7 @@ MotionResult FreeMotion::Plan(const Clearance& clearance, const RobotPosture& no
 
 MotionResult FreeMotion::PlanAbove(const Clearance& clearance, const Pose& X_WS_now, const ScanPath& path,
                                    uint64_t seed) const {
-  const Reach reach = FindReach(body_F_, X_FS_, clearance, path, settings_.min_part_m);
+  const Reach reach = FindReach(body_F_, X_FS_, clearance, path, settings_.min_part_m, half_turns_);
   if (reach.paths.empty()) return {reach.verdict, path, {}};
   const Pose X_WF_now = X_WS_now * X_FS_.inverse();
   const std::optional<Pose> X_WF_from = FindEscape(body_F_, clearance, X_WF_now, X_WS_now.linear());

@@ -39,6 +39,7 @@ class FreeMotion final : public MotionBackend {
   MotionSettings settings_;
   Pose X_FS_;
   std::optional<double> table_z_m_;
+  bool half_turns_;  ///< A sensor rolled by half a turn sees the same.
   CollisionBody body_F_;
   TimingLimits limits_;
   Eigen::AlignedBox3d search_box_W_;

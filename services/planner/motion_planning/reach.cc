@@ -1,7 +1,6 @@
 #include "services/planner/motion_planning/reach.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "services/planner/motion_planning/flange_path.h"
@@ -40,8 +39,9 @@ std::optional<Drivable> FindDrivable(const CollisionBody& body_F, const Pose& X_
 }  // namespace
 
 Reach FindReach(const CollisionBody& body_F, const Pose& X_FS, const Clearance& clearance, const ScanPath& path,
-                double min_part_m) {
-  const std::array<ScanPath, 2> rolls = {path, RollPath(path)};
+                double min_part_m, bool half_turns) {
+  std::vector<ScanPath> rolls = {path};
+  if (half_turns) rolls.push_back(RollPath(path));
   Reach whole{Verdict::kReachable, {}};
   Reach parts{Verdict::kPartly, {}};
   for (const ScanPath& roll : rolls) {

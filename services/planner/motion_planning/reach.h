@@ -13,7 +13,8 @@ struct Reach {
   std::vector<ScanPath> paths;            ///< What can be driven: one for each roll that allows it; empty when blocked.
 };
 
-/// Checks a scan path, as it stands and rolled by half a turn about the viewing axis, which scans the same.
+/// Checks a scan path, as it stands and, with `half_turns`, rolled by half a turn about the viewing axis, which scans
+/// the same where no camera stands on one side.
 ///
 /// If a roll lets all of it be driven the verdict is kReachable and `paths` holds it for each roll that does. Else if a
 /// roll lets a part of at least `min_part_m` (all of a shorter path) be driven it is kPartly, with the longest part for
@@ -24,6 +25,6 @@ struct Reach {
 /// @param body_F       The body in the flange's frame F.
 /// @param min_part_m   Metres, >= 0.
 Reach FindReach(const CollisionBody& body_F, const Pose& X_FS, const Clearance& clearance, const ScanPath& path,
-                double min_part_m);
+                double min_part_m, bool half_turns = true);
 
 }  // namespace nbs

@@ -74,6 +74,31 @@ TEST(ScanSelection, TheHighestGainThatCanBeReachedWins) {
   EXPECT_EQ(world.motions_planned, 1);
 }
 
+TEST(ScanSelection, APathThatCanBeDrivenOnlyAskewCompetesWithWhatItSeesThen) {
+  MadeUpWorld world;
+  world.gains = {{100, 5.0}, {200, 9.0}, {201, 4.0}};
+  SelectionTools tools = world.MakeTools();
+  // The longer path can be driven only askew, as which it is worth less than the other.
+  tools.check_paths = [](std::span<const ScanPath> paths) {
+    std::vector<SelectionTools::Check> checks;
+    for (ScanPath path : paths) {
+      if (MadeUpWorld::Key(path) == 200) {
+        path = MadeUpWorld::MakePath(201);
+        path.X_WS_start.rotate(Eigen::AngleAxisd(0.45, Eigen::Vector3d::UnitZ()));
+      }
+      checks.push_back({Verdict::kReachable, path});
+    }
+    return checks;
+  };
+  ScanSelection selection;
+  selection.Add(MakeCandidates({100, 200}));
+  const auto result = selection.Select(tools, 1.0);
+  ASSERT_TRUE(result.found);
+  EXPECT_EQ(result.chosen.candidate.id, 0);
+  EXPECT_EQ(result.rated.back().gain_nat, 4.0);
+  EXPECT_EQ(result.rated.back().verdict, Verdict::kReachable);
+}
+
 TEST(ScanSelection, CheckingAheadChangesNothingButTheCountOfChecks) {
   MadeUpWorld world;
   std::vector<int> lengths_mm;

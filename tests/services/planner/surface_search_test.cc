@@ -72,6 +72,24 @@ TEST_F(SurfaceSearch, PathsKeepTheLimitsOfLengthAndDoNotTurn) {
   }
 }
 
+// A sensor whose camera sees nothing from one side: the better of two rolls is proposed.
+TEST_F(SurfaceSearch, WithACameraBothRollsAreProposed) {
+  const auto count_rolled = [](const std::vector<ScanPath>& paths) {
+    int64_t rolled = 0;
+    for (const ScanPath& a : paths) {
+      rolled +=
+          std::ranges::any_of(paths, [&](const ScanPath& b) { return a.X_WS_start.isApprox(RollPath(b).X_WS_start); });
+    }
+    return rolled;
+  };
+  EXPECT_EQ(count_rolled(Find()), 0);
+  profiler_.camera_baseline_m = 0.12;
+  view_ = SurfaceView(profiler_);
+  const std::vector<ScanPath> paths = Find();
+  EXPECT_GT(count_rolled(paths), 5);
+  EXPECT_GE(CalcGain(paths.front()), CalcGain(RollPath(paths.front())));
+}
+
 TEST_F(SurfaceSearch, ThreadsChangeNothing) {
   SurfaceSearchSettings one;
   one.threads = 1;

@@ -158,6 +158,21 @@ TEST(ArmMotion, FirstPathOutOfReachOrInCollisionIsRefused) {
               HasSubstr("the first scan path cannot be driven, it comes too near to the box that is unknown"));
 }
 
+TEST(ArmMotion, FirstPathOfWhichTheArmCanDriveTheLesserPartIsRefused) {
+  RunConfig config = MakeKr16Run();
+  BoxWorld world;
+  config.first_path = MakePathAbout(1.6);
+  const Eigen::Vector3d end_W = config.first_path.X_WS_end.translation();
+  const auto block_above = [&](double room_m) {
+    const Eigen::Vector3d p_W = end_W + room_m * Eigen::Vector3d::UnitZ();
+    world.unknown = {MakeBox(p_W - Eigen::Vector3d(0.3, 0.02, 0.0), p_W + Eigen::Vector3d(0.3, 0.02, 0.1))};
+  };
+  block_above(0.0);
+  EXPECT_THAT(FindFault(config, world), HasSubstr("m of the first scan path of 0.20 m can be driven: move the arm's"));
+  block_above(0.12);
+  EXPECT_EQ(FindFault(config, world), "no error");
+}
+
 TEST(ArmMotion, ArmThatDoesNotFitTheCellIsRefused) {
   RunConfig config = MakeKr16Run();
   config.cell.arm->urdf = std::filesystem::path(NBS_SOURCE_DIR) / "tests/common/kinematics/ur5.urdf";
