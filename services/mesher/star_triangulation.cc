@@ -15,6 +15,18 @@ void SortUnique(std::vector<uint32_t>& ids) {
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
+/// True if v lies behind the sheet of w, and w rises over that of v. Sheets that meet lie both behind each other, at an
+/// edge, or both before each other, at an inner corner; here that of v has passed through the other.
+bool IsInFront(const Vertex& w, const Vertex& v, float reach_m) {
+  constexpr float kLeastSine = 0.34f, kMostCosine = 0.5f;
+  const Eigen::Vector3f d = w.p_W - v.p_W;
+  const float height = d.dot(v.normal_W);
+  if (height <= 0.0f) return false;
+  const float least = kLeastSine * d.norm();
+  return height > least && d.dot(w.normal_W) > least && d.squaredNorm() < reach_m * reach_m &&
+         v.normal_W.dot(w.normal_W) < kMostCosine;
+}
+
 SurfaceCorner MakeCorner(const Vertex& v) { return {v.p_W, v.normal_W}; }
 
 float CalcCircumradius(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
@@ -144,10 +156,14 @@ void StarTriangulation::FillLoops(const VertexStore& vertices) {
 void StarTriangulation::MakeStar(uint32_t id, const VertexStore& vertices) {
   const Vertex& v = vertices[id];
   candidates_.clear();
+  int in_front = 0;
   vertices.ForEachNear(v.p_W, settings_.max_edge_m, [&](uint32_t other) {
     const Vertex& w = vertices[other];
-    if (other != id && w.state == Vertex::State::kReal && MayJoin(v, w)) candidates_.push_back({other, w.p_W});
+    if (other == id || w.state != Vertex::State::kReal) return;
+    if (MayJoin(v, w)) candidates_.push_back({other, w.p_W});
+    in_front += IsInFront(w, v, settings_.max_edge_m) ? 1 : 0;
   });
+  if (in_front >= settings_.least_in_front) candidates_.clear();
   stars_.Set(id, CalcLocalStar(v.p_W, v.normal_W, candidates_, scratch_));
 }
 

@@ -20,6 +20,9 @@ struct TriangulationSettings {
   float max_slope = 0.6f;
   /// The slope may exceed what half the angle between the normals explains by this.
   float slope_margin = 0.15f;
+  /// A vertex joins nothing if so many others lie in front of it: their sheet has passed before it, and rises over its
+  /// own. So a point that noise puts into a wall joins no sides.
+  int least_in_front = 4;
   /// A loop of at most so many edges is closed if that takes no diagonal longer than max_bridge_m.
   size_t max_loop_edges = 24;
   float max_bridge_m = 0.007f;

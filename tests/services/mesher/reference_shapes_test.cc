@@ -150,7 +150,7 @@ TEST_P(Sheets, NoTriangleJoinsTwo) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Sheets,
                          testing::Values(std::tuple("plate", 1.0), std::tuple("plates", 1.0), std::tuple("cup", 1.0),
-                                         std::tuple("plate", 4.0), std::tuple("plates", 4.0)),
+                                         std::tuple("plate", 4.0), std::tuple("plates", 4.0), std::tuple("cup", 4.0)),
                          [](const auto& instance) {
                            return std::string(std::get<0>(instance.param)) +
                                   (std::get<1>(instance.param) > 1.0 ? "NoiseTimesFour" : "");

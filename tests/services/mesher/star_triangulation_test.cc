@@ -123,5 +123,36 @@ TEST_P(RandomMoves, LeaveASoundMeshAtRaggedBorders) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomMoves, testing::Range<uint64_t>(1, 9));
 
+/// A floor that goes on 4 mm beyond the foot of a wall, if there is one; vertex 0 lies 1.5 mm behind the foot. Not on a
+/// grid, on which stars would not agree.
+VertexStore MakeFloor(bool with_wall) {
+  VertexStore vertices(0.005f);
+  const auto add = [&](float x_mm, float y_mm, float z_mm, const Vector3f& normal_W) {
+    const uint32_t id = vertices.Insert({1e-3f * Vector3f(x_mm, y_mm, z_mm), normal_W, 1e-4f}, 0);
+    vertices[id].state = Vertex::State::kReal;
+    vertices[id].normal_W = normal_W;
+  };
+  for (const float y : {0.1f, -10.0f, -8.0f, -6.0f, -4.0f, -2.0f, 2.0f, 4.0f, 6.0f, 8.0f, 10.0f}) {
+    for (const float x : {1.5f, 4.0f, -1.0f, -3.5f, -6.0f}) add(x + 0.3f * std::sin(x + y), y, 0.0f, Vector3f::UnitZ());
+    for (const float z : {1.5f, 3.5f, 5.5f}) {
+      if (with_wall) add(0.0f, y, z, -Vector3f::UnitX());
+    }
+  }
+  return vertices;
+}
+
+bool JoinsSomething(const VertexStore& vertices) {
+  StarTriangulation triangulation({});
+  std::vector<uint32_t> all(vertices.size());
+  for (uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+  triangulation.Update(all, vertices);
+  return !triangulation.topology().TrianglesAt(0).empty();
+}
+
+TEST(StarTriangulation, VertexBehindASheetJoinsNothing) {
+  EXPECT_FALSE(JoinsSomething(MakeFloor(true)));
+  EXPECT_TRUE(JoinsSomething(MakeFloor(false)));
+}
+
 }  // namespace
 }  // namespace nbs
