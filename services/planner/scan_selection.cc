@@ -15,7 +15,7 @@ struct Entry {
   RatedCandidate rated;
   double score = 0.0;
   Stage stage = Stage::kEstimated;
-  std::optional<SelectionTools::Check> check;  ///< Of the whole path, once it is known.
+  std::optional<SelectionTools::Check> check = {};  ///< Of the whole path, once it is known.
   bool partly = false;
 };
 

@@ -1,14 +1,12 @@
 #include "services/planner/motion_planning/joint_search.h"
 
-#include <ompl/base/ScopedState.h>
 #include <ompl/base/StateSampler.h>
-#include <ompl/base/goals/GoalStates.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 
 #include <algorithm>
 #include <memory>
 
-#include "services/planner/motion_planning/ompl_search.h"
+#include "services/planner/motion_planning/state_search.h"
 
 namespace nbs {
 namespace {
@@ -42,7 +40,7 @@ class Sampler final : public ob::StateSampler {
  public:
   Sampler(const ob::StateSpace* space, std::vector<double> low, std::vector<double> high, uint64_t seed)
       : ob::StateSampler(space), low_(std::move(low)), high_(std::move(high)) {
-    rng_.setLocalSeed(ompl_search::CalcLocalSeed(seed, ompl_search::Drawer::kSampler));
+    rng_.setLocalSeed(CalcSamplerSeed(seed));
   }
 
   void sampleUniform(ob::State* state) override {
@@ -103,34 +101,31 @@ JointWay FindJointWay(const ArmModel& model, const Joints& q_start, const std::v
                       const JointSearchSettings& settings, const JointCheck& is_free,
                       const JointMotionCheck& is_free_motion) {
   const Scale scale(settings.metres_per_rad);
-  ompl_search::Search<Joints> search;
-  search.to_value = [&](const ob::State* state) { return scale.ToJoints(state); };
-  search.is_free = is_free;
-  search.is_free_motion = is_free_motion;
-  search.set_ends = [&](std::vector<Joints>& q) {
-    q.front() = q_start;
-    q.back() = q_goals[FindNearest(q_goals, q.back())];
+  StateSearch search;
+  search.is_free = [&](const ob::State* state) { return is_free(scale.ToJoints(state)); };
+  search.is_free_motion = [&](const ob::State* from, const ob::State* to) {
+    return is_free_motion(scale.ToJoints(from), scale.ToJoints(to));
   };
+  search.set_start = [&](ob::State* state) { scale.FromJoints(q_start, state); };
+  for (const Joints& q_goal : q_goals)
+    search.set_goals.emplace_back([&](ob::State* state) { scale.FromJoints(q_goal, state); });
   search.algorithm = settings.algorithm;
   search.range = settings.range_m;
   search.iterations = settings.iterations;
   search.shortcuts = settings.shortcuts;
   search.seed = settings.seed;
-  const ob::SpaceInformationPtr info = ompl_search::MakeInfo(MakeSpace(model, q_start, q_goals, settings), search);
-
-  const auto problem = std::make_shared<ob::ProblemDefinition>(info);
-  ob::ScopedState<> state(info);
-  scale.FromJoints(q_start, state.get());
-  problem->addStartState(state);
-  const auto goals = std::make_shared<ob::GoalStates>(info);
-  for (const Joints& q : q_goals) {
-    scale.FromJoints(q, state.get());
-    goals->addState(state);
-  }
-  problem->setGoal(goals);
-  JointWay way{ompl_search::Solve(info, problem, search), 0};
-  if (!way.q.empty()) way.goal = FindNearest(q_goals, way.q.back());
-  return way;
+  JointWay found;
+  FindStateWay(MakeSpace(model, q_start, q_goals, settings), search, [&](const std::vector<const ob::State*>& states) {
+    JointWay way;
+    for (const ob::State* state : states) way.q.push_back(scale.ToJoints(state));
+    way.goal = FindNearest(q_goals, way.q.back());
+    way.q.front() = q_start;
+    way.q.back() = q_goals[way.goal];
+    if (!IsFreeWay(way.q, is_free_motion)) return false;
+    found = std::move(way);
+    return true;
+  });
+  return found;
 }
 
 }  // namespace nbs

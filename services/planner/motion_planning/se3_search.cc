@@ -1,12 +1,11 @@
 #include "services/planner/motion_planning/se3_search.h"
 
-#include <ompl/base/ScopedState.h>
 #include <ompl/base/StateSampler.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
 
 #include <memory>
 
-#include "services/planner/motion_planning/ompl_search.h"
+#include "services/planner/motion_planning/state_search.h"
 
 namespace nbs {
 namespace {
@@ -41,7 +40,7 @@ class Sampler final : public ob::StateSampler {
  public:
   Sampler(const ob::StateSpace* space, const Pose& X_WB_start, const Pose& X_WB_goal, uint64_t seed)
       : ob::StateSampler(space), q_start_(X_WB_start.linear()), q_goal_(X_WB_goal.linear()) {
-    rng_.setLocalSeed(ompl_search::CalcLocalSeed(seed, ompl_search::Drawer::kSampler));
+    rng_.setLocalSeed(CalcSamplerSeed(seed));
   }
 
   void sampleUniform(ob::State* state) override {
@@ -92,23 +91,28 @@ ob::StateSpacePtr MakeSpace(const Pose& X_WB_start, const Pose& X_WB_goal, const
 
 std::vector<Pose> FindSe3Path(const Pose& X_WB_start, const Pose& X_WB_goal, const Se3SearchSettings& settings,
                               const PoseCheck& is_free, const MotionCheck& is_free_motion) {
-  ompl_search::Search<Pose> search{ToPose, is_free, is_free_motion};
-  search.set_ends = [&](std::vector<Pose>& poses_WB) {
-    poses_WB.front() = X_WB_start;
-    poses_WB.back() = X_WB_goal;
+  StateSearch search;
+  search.is_free = [&](const ob::State* state) { return is_free(ToPose(state)); };
+  search.is_free_motion = [&](const ob::State* from, const ob::State* to) {
+    return is_free_motion(ToPose(from), ToPose(to));
   };
+  search.set_start = [&](ob::State* state) { FromPose(X_WB_start, state); };
+  search.set_goals = {[&](ob::State* state) { FromPose(X_WB_goal, state); }};
   search.range = settings.range_m;
   search.iterations = settings.iterations;
   search.shortcuts = settings.shortcuts;
   search.seed = settings.seed;
-  const ob::SpaceInformationPtr info = ompl_search::MakeInfo(MakeSpace(X_WB_start, X_WB_goal, settings), search);
-  const auto problem = std::make_shared<ob::ProblemDefinition>(info);
-  ob::ScopedState<> start(info);
-  ob::ScopedState<> goal(info);
-  FromPose(X_WB_start, start.get());
-  FromPose(X_WB_goal, goal.get());
-  problem->setStartAndGoalStates(start, goal);
-  return ompl_search::Solve(info, problem, search);
+  std::vector<Pose> poses_WB;
+  FindStateWay(MakeSpace(X_WB_start, X_WB_goal, settings), search, [&](const std::vector<const ob::State*>& way) {
+    std::vector<Pose> offered_WB;
+    for (const ob::State* state : way) offered_WB.push_back(ToPose(state));
+    offered_WB.front() = X_WB_start;
+    offered_WB.back() = X_WB_goal;
+    if (!IsFreeWay(offered_WB, is_free_motion)) return false;
+    poses_WB = std::move(offered_WB);
+    return true;
+  });
+  return poses_WB;
 }
 
 }  // namespace nbs
