@@ -37,20 +37,23 @@ uint32_t FindNext(const MeshTopology& mesh, const VertexStore& vertices, uint32_
 
 }  // namespace
 
-bool FindBorderLoop(const MeshTopology& mesh, const VertexStore& vertices, uint32_t start, uint32_t second,
-                    size_t most_edges, std::vector<uint32_t>& loop) {
+BorderWalk FindBorderLoop(const MeshTopology& mesh, const VertexStore& vertices, uint32_t start, uint32_t second,
+                          size_t most_edges, std::vector<uint32_t>& loop) {
   std::vector<uint32_t> successors;
+  mesh.FindBorderSuccessors(start, successors);
+  bool simple = successors.size() == 1;
   loop.assign({start});
   uint32_t from = start, at = second;
   while (at != start) {
-    if (at == MeshTopology::kNone || loop.size() == most_edges || std::find(loop.begin(), loop.end(), at) != loop.end())
-      return false;
+    if (loop.size() == most_edges) return simple ? BorderWalk::kLong : BorderWalk::kTangled;
+    if (at == MeshTopology::kNone || std::find(loop.begin(), loop.end(), at) != loop.end()) return BorderWalk::kTangled;
     loop.push_back(at);
     const uint32_t next = FindNext(mesh, vertices, from, at, successors);
+    simple = simple && successors.size() == 1;
     from = at;
     at = next;
   }
-  return loop.size() >= 3;
+  return loop.size() >= 3 ? BorderWalk::kClosed : BorderWalk::kTangled;
 }
 
 }  // namespace nbs

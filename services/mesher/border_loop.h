@@ -8,12 +8,19 @@
 
 namespace nbs {
 
+enum class BorderWalk {
+  kClosed,  ///< Came back.
+  kLong,  ///< Has not come back after the most edges, on a border that crosses itself nowhere on the way: no walk from
+          ///< a vertex on the way would come back either.
+  kTangled,  ///< Did not come back, and other ways may.
+};
+
 /// Walks along the border from `start` over `second`, with the gap on the left, until it comes back.
 ///
 /// @param start, second  Ends of a border edge; `second` is a border successor of `start`.
 /// @param loop           Out: the vertices in order, `start` first.
-/// @returns False if the way does not close within most_edges edges or comes to a vertex twice.
-bool FindBorderLoop(const MeshTopology& mesh, const VertexStore& vertices, uint32_t start, uint32_t second,
-                    size_t most_edges, std::vector<uint32_t>& loop);
+/// @returns kTangled also if the way comes to a vertex twice.
+BorderWalk FindBorderLoop(const MeshTopology& mesh, const VertexStore& vertices, uint32_t start, uint32_t second,
+                          size_t most_edges, std::vector<uint32_t>& loop);
 
 }  // namespace nbs

@@ -36,7 +36,8 @@ void RidgeSharpener::FindCandidates(std::span<const uint32_t> ids) {
   for (uint32_t id : ids) {
     const Vertex& v = vertices_[id];
     if (v.state != Vertex::State::kReal) continue;
-    auto roof = Roof::Fit(CollectTangents(v.p_W), v.p_W, settings_.roof);
+    CollectTangents(v.p_W);
+    auto roof = Roof::Fit(tangents_, v.p_W, settings_.roof);
     if (!roof) continue;
     if (IsRidge(*roof, v)) {
       candidates_.push_back({id, std::move(*roof), false});
@@ -46,15 +47,14 @@ void RidgeSharpener::FindCandidates(std::span<const uint32_t> ids) {
   }
 }
 
-std::vector<Tangent> RidgeSharpener::CollectTangents(const Eigen::Vector3f& p_W) const {
-  std::vector<Tangent> tangents;
+void RidgeSharpener::CollectTangents(const Eigen::Vector3f& p_W) {
+  tangents_.clear();
   vertices_.ForEachNear(p_W, settings_.roof.reach_m, [&](uint32_t id) {
     const Vertex& v = vertices_[id];
     if (v.state == Vertex::State::kReal && v.ridge == Vertex::Ridge::kNone &&
         v.curvature_per_m < settings_.flat_curvature_per_m && triangulation_.IsSurrounded(id))
-      tangents.push_back({v.p_W, v.normal_W});
+      tangents_.push_back({v.p_W, v.normal_W});
   });
-  return tangents;
 }
 
 bool RidgeSharpener::IsRidge(const Roof& roof, const Vertex& v) {

@@ -78,7 +78,7 @@ class RidgeSharpener {
   };
 
   void FindCandidates(std::span<const uint32_t> ids);
-  std::vector<Tangent> CollectTangents(const Eigen::Vector3f& p_W) const;
+  void CollectTangents(const Eigen::Vector3f& p_W);
   bool IsRidge(const Roof& roof, const Vertex& v);
   std::vector<uint32_t> FindNeighbours(std::span<const uint32_t> due) const;
   std::vector<Proposal> ProposeCorners() const;
@@ -98,6 +98,7 @@ class RidgeSharpener {
   VertexStore& vertices_;
   RidgeEvidence evidence_;
   std::vector<Candidate> candidates_;
+  std::vector<Tangent> tangents_;
   std::vector<uint32_t> refuted_;
   Changes changes_;
 };

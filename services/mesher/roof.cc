@@ -19,6 +19,13 @@ float CalcKernel(float squared_distance, float squared_radius) {
 
 constexpr size_t kMostPlanes = 3;
 
+/// True if no normal turns from the first by the angle or more: then no two of them, nor means of them, by twice that.
+bool AreWithinCone(std::span<const Tangent> tangents, float angle_rad) {
+  const float least_cosine = std::cos(angle_rad);
+  return std::all_of(tangents.begin(), tangents.end(),
+                     [&](const Tangent& t) { return t.normal_W.dot(tangents.front().normal_W) > least_cosine; });
+}
+
 }  // namespace
 
 Roof::Plane Roof::MakePlane(std::span<const Tangent> group, const Vector3f& p_W, float reach_m) {
@@ -36,6 +43,7 @@ Roof::Plane Roof::MakePlane(std::span<const Tangent> group, const Vector3f& p_W,
 }
 
 std::optional<Roof> Roof::Fit(std::span<const Tangent> tangents, const Vector3f& p_W, const RoofSettings& settings) {
+  if (tangents.empty() || AreWithinCone(tangents, 0.5f * settings.least_angle_rad)) return std::nullopt;
   std::vector<Tangent> sorted;
   for (const Tangent& t : tangents) {
     if ((t.p_W - p_W).squaredNorm() < settings.reach_m * settings.reach_m) sorted.push_back(t);

@@ -142,6 +142,7 @@ void StarTriangulation::HoldBack(const std::vector<uint32_t>& slots) {
 }
 
 void StarTriangulation::FillLoops(const VertexStore& vertices) {
+  long_border_.Clear();
   std::vector<uint32_t> round;
   while (!touched_.empty()) {  // A filling can untangle the loop beside it: its vertices are looked at once more.
     round.clear();
@@ -237,13 +238,16 @@ void StarTriangulation::RemoveFilling(int32_t group) {
 }
 
 void StarTriangulation::FillLoopsAt(uint32_t id, const VertexStore& vertices) {
+  if (long_border_.Contains(id)) return;
   std::vector<uint32_t> successors, loop;
   topology_.FindBorderSuccessors(id, successors);
   std::sort(successors.begin(), successors.end());
   for (uint32_t second : successors) {
     if (topology_.Find(second, id) == MeshTopology::kNone || topology_.Find(id, second) != MeshTopology::kNone)
       continue;
-    if (FindBorderLoop(topology_, vertices, id, second, settings_.max_loop_edges, loop)) FillLoop(loop, vertices);
+    const BorderWalk walk = FindBorderLoop(topology_, vertices, id, second, settings_.max_loop_edges, loop);
+    if (walk == BorderWalk::kLong) long_border_.Insert(loop);
+    if (walk == BorderWalk::kClosed) FillLoop(loop, vertices);
   }
 }
 
@@ -259,6 +263,7 @@ void StarTriangulation::FillLoop(std::span<const uint32_t> loop, const VertexSto
   };
   const auto triangles = TriangulateLoop(corners, may_join);
   if (triangles.empty()) return;
+  long_border_.Clear();
   int32_t group = static_cast<int32_t>(fillings_.size());
   if (free_fillings_.empty()) {
     fillings_.emplace_back();

@@ -8,6 +8,7 @@
 #include "services/mesher/loop_filling.h"
 #include "services/mesher/mesh_topology.h"
 #include "services/mesher/star_store.h"
+#include "services/mesher/vertex_set.h"
 #include "services/mesher/vertex_store.h"
 
 namespace nbs {
@@ -92,6 +93,7 @@ class StarTriangulation {
   std::vector<MeshTopology::Triangle> held_back_;
   std::vector<uint32_t> touched_;            // Vertices of triangles that came or went since the last look at them,
   std::vector<uint32_t> touched_in_update_;  // and in the whole update.
+  VertexSet long_border_;                    // Vertices on borders known to be too long to be filled.
   std::vector<StarCandidate> candidates_;
   StarScratch scratch_;
 };
