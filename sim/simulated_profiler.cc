@@ -27,7 +27,7 @@ std::vector<uint8_t> SimulatedProfiler::FindReturns(const Pose& X_WS, const std:
   std::vector<uint8_t> returns(rays.size(), 0);
   std::vector<TriangleScene::Segment> sights(rays.size());
   const Eigen::Vector3d p_WC = X_WS * Eigen::Vector3d(0.0, profiler_.camera_baseline_m, 0.0);
-  const bool has_camera = profiler_.camera_baseline_m != 0.0;
+  const bool has_camera = profiler_.HasCamera();
   for (size_t i = 0; i < rays.size(); ++i) {
     const RayHit& hit = hits[i];
     if (!hit.hit() || hit.triangle >= dark_from_) continue;

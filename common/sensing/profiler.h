@@ -25,6 +25,9 @@ struct Profiler {
   double camera_baseline_m = 0.0;                 ///< 0: the camera's line of sight is not modelled, and frees nothing.
   double scan_speed_m_per_s = 0.05;
 
+  /// True if the camera's line of sight counts; a sensor rolled by half a turn then sees otherwise.
+  bool HasCamera() const { return camera_baseline_m != 0.0; }
+
   bool operator==(const Profiler&) const = default;
 };
 

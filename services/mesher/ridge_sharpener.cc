@@ -2,13 +2,10 @@
 
 #include <algorithm>
 
+#include "services/mesher/sort_unique.h"
+
 namespace nbs {
 namespace {
-
-void SortUnique(std::vector<uint32_t>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 bool FacesAway(const Vertex& v, const Tangent& t) {
   constexpr float kOpposite = -0.5f;

@@ -6,14 +6,10 @@
 
 #include "services/mesher/border_loop.h"
 #include "services/mesher/small_parts.h"
+#include "services/mesher/sort_unique.h"
 
 namespace nbs {
 namespace {
-
-void SortUnique(std::vector<uint32_t>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 /// True if v lies behind the sheet of w, and w rises over that of v. Sheets that meet lie both behind each other, at an
 /// edge, or both before each other, at an inner corner; here that of v has passed through the other.

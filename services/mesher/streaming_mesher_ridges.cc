@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "services/mesher/sort_unique.h"
 #include "services/mesher/streaming_mesher.h"
 
 namespace nbs {
@@ -10,8 +11,7 @@ namespace nbs {
 void StreamingMesher::SharpenRidges() {
   std::vector<uint32_t> due;
   due.swap(ridge_due_);
-  std::sort(due.begin(), due.end());
-  due.erase(std::unique(due.begin(), due.end()), due.end());
+  SortUnique(due);
   const std::vector<RidgeSharpener::Place> before = Loosen(due);
   ridge_due_.clear();
   const RidgeSharpener::Changes changes =

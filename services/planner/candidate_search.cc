@@ -78,7 +78,7 @@ std::vector<Candidate> CandidateSearcher::FindCandidates(PlanMode mode, const Se
 /// What the sensor sees matters less than that it can be there: with a camera it may stand on either side.
 std::vector<Candidate> CandidateSearcher::FindFirst() const {
   std::vector<Candidate> candidates = {{.source = CandidateSource::kFirst, .path = config_.first_path}};
-  if (config_.cell.profiler.camera_baseline_m == 0.0) return candidates;
+  if (!config_.cell.profiler.HasCamera()) return candidates;
   candidates.push_back({.source = CandidateSource::kFirst, .rank = 1, .path = RollPath(config_.first_path)});
   return candidates;
 }

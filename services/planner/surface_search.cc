@@ -34,9 +34,6 @@ std::vector<uint32_t> ChooseSeeds(std::span<const SurfaceElement> elements, doub
   return seeds;
 }
 
-/// True if it matters on which side of the stripe the camera stands: a sensor rolled by half a turn sees otherwise.
-bool HasCamera(const Profiler& profiler) { return profiler.camera_baseline_m != 0.0; }
-
 /// The path straight on over a strip if the robot could drive it, otherwise those from aside that it could.
 void AddDrivable(const Strip& strip, double standoff_m, const SurfaceSearchSettings& settings,
                  std::vector<ScanPath>& paths) {
@@ -81,7 +78,7 @@ void AddSeedPaths(std::span<const SurfaceElement> elements, const SurfaceElement
     for (double extent_m : {settings.short_m, settings.long_m}) {
       const Strip strip{seed.p_W.cast<double>() + mean_W, normal_W, along_W, extent_m};
       AddDrivable(strip, profiler.standoff_m, settings, paths);
-      if (!HasCamera(profiler)) continue;
+      if (!profiler.HasCamera()) continue;
       AddDrivable({strip.p_W, strip.normal_W, -strip.along_W, extent_m}, profiler.standoff_m, settings, paths);
     }
   }
@@ -168,7 +165,7 @@ std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, cons
     return Rate(paths, view.CalcGains(prediction, paths, voxel_m, settings.threads, element_step));
   };
   const std::span<const SurfaceElement> elements = prediction.elements();
-  const int moves = HasCamera(profiler) ? kMoves + 1 : kMoves;
+  const int moves = profiler.HasCamera() ? kMoves + 1 : kMoves;
   std::vector<ScanPath> paths;
   for (uint32_t seed : ChooseSeeds(elements, settings.seed_spacing_m))
     AddSeedPaths(elements, elements[seed], profiler, settings, paths);
@@ -195,7 +192,7 @@ std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, cons
   SortByGain(proposals);
   std::vector<ScanPath> found;
   for (const Proposal& proposal :
-       TakeUnlike(proposals, settings.max_candidates, settings.alike_m, settings.alike_rad, HasCamera(profiler))) {
+       TakeUnlike(proposals, settings.max_candidates, settings.alike_m, settings.alike_rad, profiler.HasCamera())) {
     if (proposal.gain_nat > 0.0) found.push_back(proposal.path);
   }
   return found;

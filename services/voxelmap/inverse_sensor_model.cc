@@ -51,7 +51,7 @@ StripeEvidence CalcStripeEvidence(const Profiler& profiler, const std::vector<Ei
                                   double free_margin_sigma, const Stripe& stripe, StripeEvidence memory) {
   StripeEvidence evidence = std::move(memory);
   const Eigen::Vector3d p_WS = stripe.X_WS.translation();
-  const bool has_camera = profiler.camera_baseline_m > 0.0;
+  const bool has_camera = profiler.HasCamera();
   evidence.hits_W.clear();
   evidence.fans.resize(has_camera ? 2 : 1);
   for (FreeFan& fan : evidence.fans) fan.ends_W.clear();

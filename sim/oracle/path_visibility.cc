@@ -51,7 +51,7 @@ std::vector<uint32_t> PathVisibility::FindSeen(const ScanPath& path) const {
     if (samples_[i].normal_W.dot(p_WC - samples_[i].p_W) <= 0.0) continue;
     lit.push_back(static_cast<uint32_t>(i));
     sights.push_back({samples_[i].p_W, p_WS});
-    if (profiler_.camera_baseline_m != 0.0) camera_sights.push_back({samples_[i].p_W, p_WC});
+    if (profiler_.HasCamera()) camera_sights.push_back({samples_[i].p_W, p_WC});
   }
   const std::vector<uint8_t> blocked = object_W_->FindBlocked(sights, kSurfaceSkip_m);
   const std::vector<uint8_t> unseen = object_W_->FindBlocked(camera_sights, kSurfaceSkip_m);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "common/kinematics/urdf_reader.h"
 #include "common/runtime/error.h"
@@ -71,7 +70,7 @@ ArmMotion::ArmMotion(const RunConfig& config, const MotionSettings& settings)
       limits_(MakeArmLimits(config.cell, arm_.ik.model())),
       q_start_(ToJoints(config.cell.arm->start_rad)) {
   reach_.min_part_m = settings.min_part_m;
-  reach_.half_turns = config.cell.profiler.camera_baseline_m == 0.0;
+  reach_.half_turns = !config.cell.profiler.HasCamera();
 }
 
 PathCheck ArmMotion::CheckPath(const Clearance& clearance, const ScanPath& path) const {
@@ -81,17 +80,15 @@ PathCheck ArmMotion::CheckPath(const Clearance& clearance, const ScanPath& path)
 /// At the rolls that are tried first (arm_reach.h).
 bool ArmMotion::CouldDrive(const Clearance& clearance, const ScanPath& path) const {
   const NothingSolid nothing;
-  const Pose X_SR(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
   const auto could_be_at = [&](const Clearance& space, const Pose& X_WS) {
     return std::ranges::any_of(arm_.ik.FindAll(arm_.collision.X_WB().inverse() * X_WS * arm_.X_FS.inverse()),
                                [&](const Joints& q) { return arm_.collision.FindTouch(space, q) == ArmTouch::kFree; });
   };
-  const auto could_follow = [&](const Pose& X_SR_roll) {
-    const Pose X_WS_middle = Interpolate(path.X_WS_start, path.X_WS_end, 0.5);
-    return could_be_at(clearance, X_WS_middle * X_SR_roll) && could_be_at(nothing, path.X_WS_start * X_SR_roll) &&
-           could_be_at(nothing, path.X_WS_end * X_SR_roll);
+  const auto could_follow = [&](const ScanPath& roll) {
+    return could_be_at(clearance, Interpolate(roll.X_WS_start, roll.X_WS_end, 0.5)) &&
+           could_be_at(nothing, roll.X_WS_start) && could_be_at(nothing, roll.X_WS_end);
   };
-  return could_follow(Pose::Identity()) || (reach_.half_turns && could_follow(X_SR));
+  return could_follow(path) || (reach_.half_turns && could_follow(RollPath(path)));
 }
 
 RobotPosture ArmMotion::MakeStartPosture(const ScanPath&) const {

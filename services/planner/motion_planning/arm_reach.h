@@ -38,10 +38,9 @@ struct ArmSetup {
 };
 
 /// Checks a scan path: as it stands and rolled by half a turn, then askew (half turns only where the sensor sees the
-/// same). The first two rolls that let all of it be
-/// driven are enough; if none does, the longest part stands for it. Otherwise the verdict is the one that is nearest to
-/// success among the rolls as it stands and by half a turn: unknown space, obstacle, self-collision, speed, joint
-/// limits, no inverse kinematics.
+/// same). The first two rolls that let all of it be driven are enough; if none does, the longest part stands for it.
+/// Otherwise the verdict is the one that is nearest to success among the rolls as it stands and by half a turn: unknown
+/// space, obstacle, self-collision, speed, joint limits, no inverse kinematics.
 ArmReach FindArmReach(const ArmSetup& arm, const Clearance& clearance, const ScanPath& path,
                       const ArmReachSettings& settings = {});
 

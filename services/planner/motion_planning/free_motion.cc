@@ -32,7 +32,7 @@ FreeMotion::FreeMotion(const RunConfig& config, const MotionSettings& settings)
     : settings_(settings),
       X_FS_(config.cell.X_FS),
       table_z_m_(config.cell.table_z_m),
-      half_turns_(config.cell.profiler.camera_baseline_m == 0.0),
+      half_turns_(!config.cell.profiler.HasCamera()),
       body_F_(MakeBody(config.cell)),
       limits_(MakeLimits(config.cell)),
       search_box_W_(MakeSearchBox(config.grid, settings.search_margin_m)) {}
