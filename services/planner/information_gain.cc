@@ -5,7 +5,8 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
-#include <thread>
+
+#include "common/runtime/parallel.h"
 
 namespace nbs {
 namespace {
@@ -23,14 +24,6 @@ void Check(GainSampling sampling, int threads) {
   if (sampling.stripe_step < 1 || sampling.beam_step < 1)
     throw std::invalid_argument("InformationGain: a sampling step below 1");
   if (threads < 1) throw std::invalid_argument("InformationGain: " + std::to_string(threads) + " threads");
-}
-
-/// Calls work(0) ... work(threads - 1), each on a thread of its own; this thread is one of them.
-template <typename Work>
-void RunOver(int threads, const Work& work) {
-  std::vector<std::jthread> helpers;
-  for (int thread = 1; thread < threads; ++thread) helpers.emplace_back(work, thread);
-  work(0);
 }
 
 }  // namespace
@@ -63,7 +56,7 @@ int64_t InformationGain::CalcStripe(const GainMap& map, const Pose& X_WS, int be
 int64_t InformationGain::Calc(const GainMap& map, const ScanPath& path, GainSampling sampling, int threads) const {
   Check(sampling, threads);
   std::vector<int64_t> sums(threads, 0);
-  RunOver(threads, [&](int thread) {
+  RunOnThreads(threads, [&](int thread) {
     Workspace workspace = MakeWorkspace(map);
     sums[thread] = SumPart(map, path, sampling, threads, thread, workspace);
   });
@@ -93,7 +86,7 @@ std::vector<int64_t> InformationGain::CalcAll(const GainMap& map, std::span<cons
   Check(sampling, threads);
   std::vector<int64_t> gains(paths.size(), 0);
   // Each thread takes every threads-th path and writes to entries of its own.
-  RunOver(threads, [&](int thread) {
+  RunOnThreads(threads, [&](int thread) {
     Workspace workspace = MakeWorkspace(map);
     for (size_t i = thread; i < paths.size(); i += threads)
       gains[i] = ScaleUp(SumPart(map, paths[i], sampling, 1, 0, workspace), paths[i], sampling);

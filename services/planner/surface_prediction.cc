@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
-#include <thread>
 
 #include "common/geometry/borders.h"
 #include "common/mapping/ray_walk.h"
+#include "common/runtime/parallel.h"
 #include "services/planner/information_gain.h"
 #include "services/planner/surface_view.h"
 
@@ -182,9 +182,7 @@ void SurfacePrediction::Relax(int threads) {
       sweep_done.arrive_and_wait();
     }
   };
-  std::vector<std::jthread> workers;
-  for (int thread = 1; thread < threads; ++thread) workers.emplace_back(work, thread);
-  work(0);
+  RunOnThreads(threads, work);
 }
 
 void SurfacePrediction::MeasureRoom() {

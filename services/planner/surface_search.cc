@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "common/runtime/parallel.h"
+
 namespace nbs {
 namespace {
 
@@ -117,11 +119,11 @@ ScanPath Move(const ScanPath& path, int move, double scale, double standoff_m, c
   return moved;
 }
 
-std::vector<Proposal> Rate(const std::vector<ScanPath>& paths, const std::vector<double>& gains_nat) {
-  std::vector<Proposal> proposals;
-  proposals.reserve(paths.size());
-  for (size_t i = 0; i < paths.size(); ++i) proposals.push_back({paths[i], gains_nat[i]});
-  return proposals;
+template <typename Part>
+std::vector<Part> Join(const std::vector<std::vector<Part>>& parts) {
+  std::vector<Part> all;
+  for (const std::vector<Part>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 void SortByGain(std::vector<Proposal>& proposals) {
@@ -156,24 +158,36 @@ std::vector<Proposal> TakeUnlike(const std::vector<Proposal>& sorted, size_t cou
   return taken;
 }
 
-}  // namespace
+/// What the steps of one search share.
+struct Search {
+  const SurfacePrediction& prediction;
+  const SurfaceView& view;
+  const Profiler& profiler;
+  double voxel_m;
+  const SurfaceSearchSettings& settings;
 
-std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, const SurfaceView& view,
-                                       const Profiler& profiler, double voxel_m,
-                                       const SurfaceSearchSettings& settings) {
-  const auto rate = [&](const std::vector<ScanPath>& paths, uint32_t element_step) {
-    return Rate(paths, view.CalcGains(prediction, paths, voxel_m, settings.threads, element_step));
-  };
-  const std::span<const SurfaceElement> elements = prediction.elements();
-  const int moves = profiler.HasCamera() ? kMoves + 1 : kMoves;
-  std::vector<ScanPath> paths;
-  for (uint32_t seed : ChooseSeeds(elements, settings.seed_spacing_m))
-    AddSeedPaths(elements, elements[seed], profiler, settings, paths);
-  std::vector<Proposal> proposals =
-      rate(TakeBest(rate(paths, settings.seed_step), settings.max_candidates), settings.element_step);
-  SortByGain(proposals);
+  std::vector<Proposal> Rate(const std::vector<ScanPath>& paths, uint32_t element_step, int threads) const {
+    const std::vector<double> gains_nat = view.CalcGains(prediction, paths, voxel_m, threads, element_step);
+    std::vector<Proposal> proposals;
+    proposals.reserve(paths.size());
+    for (size_t i = 0; i < paths.size(); ++i) proposals.push_back({paths[i], gains_nat[i]});
+    return proposals;
+  }
 
-  for (Proposal best : TakeUnlike(proposals, settings.improve, kUnlike_m, kUnlike_rad)) {
+  /// Over the patch around each seed.
+  std::vector<ScanPath> Propose() const {
+    const std::span<const SurfaceElement> elements = prediction.elements();
+    const std::vector<uint32_t> seeds = ChooseSeeds(elements, settings.seed_spacing_m);
+    std::vector<std::vector<ScanPath>> by_seed(seeds.size());
+    ForEachIndex(seeds.size(), settings.threads,
+                 [&](size_t i) { AddSeedPaths(elements, elements[seeds[i]], profiler, settings, by_seed[i]); });
+    return Join(by_seed);
+  }
+
+  /// Moves a path in small steps as long as it gains; all on the way that come near the best of their round.
+  std::vector<Proposal> Improve(Proposal best) const {
+    const int moves = profiler.HasCamera() ? kMoves + 1 : kMoves;
+    std::vector<Proposal> good;
     double scale = 1.0;
     for (int round = 0; round < settings.rounds; ++round) {
       std::vector<ScanPath> moved;
@@ -182,13 +196,36 @@ std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, cons
         if (!settings.could_drive || settings.could_drive(path)) moved.push_back(path);
       }
       const double gain_before = best.gain_nat;
-      for (const Proposal& trial : rate(moved, settings.element_step)) {
-        if (trial.gain_nat > kNearlyAsGood * gain_before) proposals.push_back(trial);
+      for (const Proposal& trial : Rate(moved, settings.element_step, 1)) {
+        if (trial.gain_nat > kNearlyAsGood * gain_before) good.push_back(trial);
         if (trial.gain_nat > best.gain_nat) best = trial;
       }
       if (best.gain_nat <= gain_before) scale *= 0.5;
     }
+    return good;
   }
+
+  /// Each by itself, side by side.
+  std::vector<Proposal> ImproveAll(const std::vector<Proposal>& starts) const {
+    std::vector<std::vector<Proposal>> by_start(starts.size());
+    ForEachIndex(starts.size(), settings.threads, [&](size_t i) { by_start[i] = Improve(starts[i]); });
+    return Join(by_start);
+  }
+};
+
+}  // namespace
+
+std::vector<ScanPath> FindSurfacePaths(const SurfacePrediction& prediction, const SurfaceView& view,
+                                       const Profiler& profiler, double voxel_m,
+                                       const SurfaceSearchSettings& settings) {
+  const Search search{prediction, view, profiler, voxel_m, settings};
+  const std::vector<ScanPath> best =
+      TakeBest(search.Rate(search.Propose(), settings.seed_step, settings.threads), settings.max_candidates);
+  std::vector<Proposal> proposals = search.Rate(best, settings.element_step, settings.threads);
+  SortByGain(proposals);
+  const std::vector<Proposal> improved =
+      search.ImproveAll(TakeUnlike(proposals, settings.improve, kUnlike_m, kUnlike_rad));
+  proposals.insert(proposals.end(), improved.begin(), improved.end());
   SortByGain(proposals);
   std::vector<ScanPath> found;
   for (const Proposal& proposal :

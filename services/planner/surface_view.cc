@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <thread>
+
+#include "common/runtime/parallel.h"
 
 namespace nbs {
 namespace {
@@ -89,14 +90,9 @@ double SurfaceView::CalcGain(const SurfacePrediction& prediction, const ScanPath
 std::vector<double> SurfaceView::CalcGains(const SurfacePrediction& prediction, std::span<const ScanPath> paths,
                                            double voxel_m, int threads, uint32_t element_step) const {
   std::vector<double> gains_nat(paths.size());
-  const auto work = [&](size_t first) {
-    for (size_t i = first; i < paths.size(); i += threads)
-      gains_nat[i] = CalcArea(prediction, paths[i], element_step) / (voxel_m * voxel_m) * std::numbers::ln2;
-  };
-  std::vector<std::jthread> workers;
-  for (int i = 1; i < threads; ++i) workers.emplace_back(work, i);
-  work(0);
-  workers.clear();
+  ForEachIndex(paths.size(), threads, [&](size_t i) {
+    gains_nat[i] = CalcArea(prediction, paths[i], element_step) / (voxel_m * voxel_m) * std::numbers::ln2;
+  });
   return gains_nat;
 }
 

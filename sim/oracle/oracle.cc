@@ -1,10 +1,9 @@
 #include "sim/oracle/oracle.h"
 
-#include <atomic>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 
+#include "common/runtime/parallel.h"
 #include "sim/oracle/partners.h"
 #include "sim/oracle/path_visibility.h"
 
@@ -15,21 +14,14 @@ namespace {
 CoverTable MakeSeenTable(const PathVisibility& visibility, const std::vector<ScanPath>& paths, size_t samples,
                          int threads, const std::function<void(size_t, size_t)>& progress) {
   CoverTable table(paths.size(), samples);
-  std::atomic<size_t> next = 0;
   std::mutex mutex;
   size_t done = 0;
-  const auto work = [&] {
-    for (size_t row = next++; row < paths.size(); row = next++) {
-      for (uint32_t sample : visibility.FindSeen(paths[row])) table.Mark(row, sample);
-      const std::lock_guard lock(mutex);
-      ++done;
-      if (progress) progress(done, paths.size());
-    }
-  };
-  std::vector<std::jthread> others;
-  for (int t = 1; t < threads; ++t) others.emplace_back(work);
-  work();
-  others.clear();
+  ForEachIndex(paths.size(), threads, [&](size_t row) {
+    for (uint32_t sample : visibility.FindSeen(paths[row])) table.Mark(row, sample);
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) progress(done, paths.size());
+  });
   return table;
 }
 

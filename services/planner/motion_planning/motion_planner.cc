@@ -1,12 +1,11 @@
 #include "services/planner/motion_planning/motion_planner.h"
 
 #include <algorithm>
-#include <atomic>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 #include "common/runtime/error.h"
+#include "common/runtime/parallel.h"
 #include "services/planner/motion_planning/arm_motion.h"
 #include "services/planner/motion_planning/free_motion.h"
 
@@ -42,19 +41,12 @@ bool MotionPlanner::ChecksSlowly() const { return backend_->ChecksSlowly(); }
 std::vector<PathCheck> MotionPlanner::CheckPaths(const Clearance& clearance, std::span<const ScanPath> paths,
                                                  int threads) const {
   std::vector<PathCheck> checks(paths.size());
-  std::atomic<size_t> next = 0;
-  const auto work = [&] {
-    for (size_t i = next++; i < paths.size(); i = next++) checks[i] = backend_->CheckPath(clearance, paths[i]);
-  };
   for (const ScanPath& path : paths) {
     CheckRigid(path.X_WS_start);
     CheckRigid(path.X_WS_end);
   }
-  const size_t most = ChecksSlowly() ? std::min(static_cast<size_t>(threads), paths.size()) : 1;
-  std::vector<std::jthread> others;
-  for (size_t i = 1; i < most; ++i) others.emplace_back(work);
-  work();
-  others.clear();
+  ForEachIndex(paths.size(), ChecksSlowly() ? threads : 1,
+               [&](size_t i) { checks[i] = backend_->CheckPath(clearance, paths[i]); });
   return checks;
 }
 
