@@ -1,5 +1,7 @@
 #include "services/mesher/mesh_topology.h"
 
+#include <utility>
+
 namespace nbs {
 
 uint32_t MeshTopology::Insert(const Triangle& t, int32_t group) {
@@ -10,6 +12,7 @@ uint32_t MeshTopology::Insert(const Triangle& t, int32_t group) {
   const size_t vertices = std::max({t[0], t[1], t[2]}) + size_t{1};
   first_.GrowTo(vertices);
   borders_.GrowTo(vertices);
+  border_ends_.GrowTo(vertices);
   CountBorders(t, 1);
   uint32_t slot = static_cast<uint32_t>(slots_.size());
   if (free_.empty()) {
@@ -41,11 +44,12 @@ void MeshTopology::Remove(uint32_t slot) {
 /// no triangle beside it, and takes one away where it has.
 void MeshTopology::CountBorders(const Triangle& t, int change) {
   for (int i = 0; i < 3; ++i) {
-    const uint32_t a = t[i], b = t[(i + 1) % 3];
-    const bool beside = Find(b, a) != kNone;
+    uint32_t begin = t[(i + 1) % 3], end = t[i];
+    const bool beside = Find(begin, end) != kNone;
+    if (beside) std::swap(begin, end);
     border_edge_count_ += beside ? -change : change;
-    uint8_t& borders = borders_[beside ? a : b];
-    borders = static_cast<uint8_t>(borders + (beside ? -change : change));
+    borders_[begin] = static_cast<uint8_t>(borders_[begin] + (beside ? -change : change));
+    border_ends_[begin] ^= end;
   }
 }
 
@@ -103,6 +107,10 @@ uint32_t MeshTopology::Previous(uint32_t slot, uint32_t vertex) const {
 void MeshTopology::FindBorderSuccessors(uint32_t vertex, std::vector<uint32_t>& successors) const {
   successors.clear();
   if (vertex >= borders_.size() || borders_[vertex] == 0) return;
+  if (borders_[vertex] == 1) {
+    successors.push_back(border_ends_[vertex]);
+    return;
+  }
   // A triangle ends a fan if none at the vertex begins where it ends.
   std::vector<uint32_t>& ends = successors;
   std::array<uint32_t, 32> begins{};

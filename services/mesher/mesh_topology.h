@@ -104,7 +104,8 @@ class MeshTopology {
 
   PagedVector<Slot> slots_;
   PagedVector<First> first_;
-  PagedVector<uint8_t> borders_;  // Border edges that begin at each vertex.
+  PagedVector<uint8_t> borders_;  // Border edges that begin at each vertex,
+  PagedVector<uint32_t> border_ends_;  // and the exclusive or of the vertices where they end.
   std::vector<bool> changed_;
   std::vector<uint32_t> changed_list_;
   std::vector<uint32_t> free_;
