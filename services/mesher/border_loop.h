@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "services/mesher/mesh_topology.h"
+#include "services/mesher/vertex_set.h"
 #include "services/mesher/vertex_store.h"
 
 namespace nbs {
@@ -18,9 +19,10 @@ enum class BorderWalk {
 /// Walks along the border from `start` over `second`, with the gap on the left, until it comes back.
 ///
 /// @param start, second  Ends of a border edge; `second` is a border successor of `start`.
-/// @param loop           Out: the vertices in order, `start` first.
+/// @param known_long     Vertices on the way of walks that were kLong; the border has not changed there since.
+/// @param loop           Out: the vertices in order, `start` first; if kLong, up to where the rest is known.
 /// @returns kTangled also if the way comes to a vertex twice.
 BorderWalk FindBorderLoop(const MeshTopology& mesh, const VertexStore& vertices, uint32_t start, uint32_t second,
-                          size_t most_edges, std::vector<uint32_t>& loop);
+                          size_t most_edges, const VertexSet& known_long, std::vector<uint32_t>& loop);
 
 }  // namespace nbs

@@ -106,7 +106,7 @@ uint32_t MeshTopology::Previous(uint32_t slot, uint32_t vertex) const {
 
 void MeshTopology::FindBorderSuccessors(uint32_t vertex, std::vector<uint32_t>& successors) const {
   successors.clear();
-  if (vertex >= borders_.size() || borders_[vertex] == 0) return;
+  if (!IsOnBorder(vertex)) return;
   if (borders_[vertex] == 1) {
     successors.push_back(border_ends_[vertex]);
     return;

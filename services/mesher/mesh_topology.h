@@ -69,6 +69,8 @@ class MeshTopology {
   uint32_t Next(uint32_t slot, uint32_t vertex) const;
   uint32_t Previous(uint32_t slot, uint32_t vertex) const;
 
+  bool IsOnBorder(uint32_t vertex) const { return vertex < borders_.size() && borders_[vertex] != 0; }
+
   /// The vertices to which a border runs from `vertex`, walking with the gap on the left.
   void FindBorderSuccessors(uint32_t vertex, std::vector<uint32_t>& successors) const;
 

@@ -24,10 +24,10 @@ bool IsLarger(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
 }  // namespace
 
 std::vector<uint32_t> FindLesserFans(const MeshTopology& mesh, uint32_t vertex) {
+  if (!mesh.IsOnBorder(vertex)) return {};
   std::vector<uint32_t> successors;
   mesh.FindBorderSuccessors(vertex, successors);
-  if (successors.empty() ||
-      (successors.size() == 1 && CollectFan(mesh, vertex, successors[0]).size() == mesh.CountTrianglesAt(vertex)))
+  if (successors.size() == 1 && CollectFan(mesh, vertex, successors[0]).size() == mesh.CountTrianglesAt(vertex))
     return {};
   std::vector<uint32_t> largest;
   for (uint32_t last : successors) {
@@ -42,19 +42,18 @@ std::vector<uint32_t> FindLesserFans(const MeshTopology& mesh, uint32_t vertex) 
   return lesser;
 }
 
-std::vector<uint32_t> FindIsland(const MeshTopology& mesh, uint32_t start, size_t limit) {
-  std::vector<uint32_t> island{start};
-  for (size_t i = 0; i < island.size(); ++i) {
-    const MeshTopology::Triangle t = mesh.triangles()[island[i]];
+std::vector<uint32_t> FindPart(const MeshTopology& mesh, uint32_t start, size_t limit) {
+  std::vector<uint32_t> part{start};
+  for (size_t i = 0; i < part.size(); ++i) {
+    const MeshTopology::Triangle t = mesh.triangles()[part[i]];
     for (int k = 0; k < 3; ++k) {
+      if (part.size() == limit) return part;
       const uint32_t neighbour = mesh.Find(t[(k + 1) % 3], t[k]);
-      if (neighbour == MeshTopology::kNone || std::find(island.begin(), island.end(), neighbour) != island.end())
-        continue;
-      if (island.size() + 1 == limit) return {};
-      island.push_back(neighbour);
+      if (neighbour != MeshTopology::kNone && std::find(part.begin(), part.end(), neighbour) == part.end())
+        part.push_back(neighbour);
     }
   }
-  return island;
+  return part;
 }
 
 }  // namespace nbs

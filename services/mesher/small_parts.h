@@ -12,8 +12,8 @@ namespace nbs {
 /// is one fan only.
 std::vector<uint32_t> FindLesserFans(const MeshTopology& mesh, uint32_t vertex);
 
-/// All triangles that hang together by edges with the one in slot `start`, if they are fewer than `limit`; empty
-/// otherwise.
-std::vector<uint32_t> FindIsland(const MeshTopology& mesh, uint32_t start, size_t limit);
+/// Triangles that hang together by edges with the one in slot `start`, nearest first: all of them if they are fewer
+/// than `limit`, otherwise so many.
+std::vector<uint32_t> FindPart(const MeshTopology& mesh, uint32_t start, size_t limit);
 
 }  // namespace nbs

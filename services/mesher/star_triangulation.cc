@@ -115,10 +115,15 @@ void StarTriangulation::HoldBackLesserFans() {
 }
 
 void StarTriangulation::HoldBackIslands() {
-  std::vector<uint32_t> successors;
+  large_parts_.Clear();
   for (uint32_t id : touched_in_update_) {
-    topology_.FindBorderSuccessors(id, successors);
-    if (!successors.empty()) HoldBack(FindIsland(topology_, *topology_.TrianglesAt(id).begin(), settings_.least_part));
+    if (!topology_.IsOnBorder(id) || large_parts_.Contains(id)) continue;
+    const std::vector<uint32_t> part = FindPart(topology_, *topology_.TrianglesAt(id).begin(), settings_.least_part);
+    if (part.size() < settings_.least_part) {
+      HoldBack(part);
+    } else {
+      for (uint32_t slot : part) large_parts_.Insert(topology_.triangles()[slot]);
+    }
   }
   touched_.clear();
   touched_in_update_.clear();
@@ -234,14 +239,14 @@ void StarTriangulation::RemoveFilling(int32_t group) {
 }
 
 void StarTriangulation::FillLoopsAt(uint32_t id, const VertexStore& vertices) {
-  if (long_border_.Contains(id)) return;
+  if (!topology_.IsOnBorder(id) || long_border_.Contains(id)) return;
   std::vector<uint32_t> successors, loop;
   topology_.FindBorderSuccessors(id, successors);
   std::sort(successors.begin(), successors.end());
   for (uint32_t second : successors) {
     if (topology_.Find(second, id) == MeshTopology::kNone || topology_.Find(id, second) != MeshTopology::kNone)
       continue;
-    const BorderWalk walk = FindBorderLoop(topology_, vertices, id, second, settings_.max_loop_edges, loop);
+    const BorderWalk walk = FindBorderLoop(topology_, vertices, id, second, settings_.max_loop_edges, long_border_, loop);
     if (walk == BorderWalk::kLong) long_border_.Insert(loop);
     if (walk == BorderWalk::kClosed) FillLoop(loop, vertices);
   }

@@ -94,6 +94,7 @@ class StarTriangulation {
   std::vector<uint32_t> touched_;            // Vertices of triangles that came or went since the last look at them,
   std::vector<uint32_t> touched_in_update_;  // and in the whole update.
   VertexSet long_border_;                    // Vertices on borders known to be too long to be filled.
+  VertexSet large_parts_;                    // Vertices of parts known not to be held back.
   std::vector<StarCandidate> candidates_;
   StarScratch scratch_;
 };

@@ -47,19 +47,20 @@ TEST(SmallParts, OpenFanBesideAClosedOneLeavesOneFan) {
   EXPECT_TRUE(FindLesserFans(mesh, 0).empty());
 }
 
-TEST(SmallParts, IslandIsFoundWholeBelowTheLimitOnly) {
+TEST(SmallParts, PartIsFoundWholeOrUpToTheLimit) {
   MeshTopology mesh;
   for (uint32_t i = 0; i < 5; ++i)
     mesh.Insert(i % 2 == 0 ? MeshTopology::Triangle{i, i + 1, i + 2} : MeshTopology::Triangle{i + 1, i, i + 2}, 0);
-  EXPECT_EQ(FindIsland(mesh, 2, 6).size(), 5u);
-  EXPECT_TRUE(FindIsland(mesh, 2, 5).empty());
+  EXPECT_EQ(FindPart(mesh, 2, 6).size(), 5u);
+  EXPECT_EQ(FindPart(mesh, 2, 5).size(), 5u);
+  EXPECT_EQ(FindPart(mesh, 2, 3), (Slots{2, 1, 3}));
 }
 
-TEST(SmallParts, TouchInAVertexJoinsNoIsland) {
+TEST(SmallParts, TouchInAVertexJoinsNoPart) {
   MeshTopology mesh;
   const uint32_t first = mesh.Insert({0, 1, 2}, 0);
   mesh.Insert({2, 3, 4}, 0);
-  EXPECT_EQ(FindIsland(mesh, first, 12), (Slots{first}));
+  EXPECT_EQ(FindPart(mesh, first, 12), (Slots{first}));
 }
 
 }  // namespace
