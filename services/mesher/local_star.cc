@@ -3,12 +3,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace nbs {
 namespace {
 
 using Point = StarScratch::Point;
+
+/// Ascends with the angle of (x, y), from -2 to 2; opposite directions are 2 apart.
+double CalcTurn(double x, double y) {
+  const double along = x / (std::abs(x) + std::abs(y));
+  return y < 0.0 ? along - 1.0 : 1.0 - along;
+}
 
 /// The candidates, laid down in the tangent plane and inverted.
 void InvertCandidates(const Eigen::Vector3f& p_W, const Eigen::Vector3f& normal_W,
@@ -20,7 +25,7 @@ void InvertCandidates(const Eigen::Vector3f& p_W, const Eigen::Vector3f& normal_
     const Eigen::Vector3f d = c.p_W - p_W;
     const double x = d.dot(x_W), y = d.dot(y_W);
     const double scale = 1.0 / (std::sqrt(x * x + y * y) * d.norm());
-    points.push_back({x * scale, y * scale, std::atan2(y, x), c.id});
+    points.push_back({x * scale, y * scale, CalcTurn(x, y), c.id});
   }
 }
 
@@ -39,9 +44,9 @@ bool TurnsLeft(const Point& a, const Point& b, const Point& c) {
 int FindStartAfterGap(const std::vector<Point>& points) {
   const size_t n = points.size();
   for (size_t i = 0; i < n; ++i) {
-    double gap = points[(i + 1) % n].angle - points[i].angle;
-    if (i + 1 == n) gap += 2.0 * std::numbers::pi;
-    if (gap >= std::numbers::pi) return static_cast<int>((i + 1) % n);
+    double gap = points[(i + 1) % n].turn - points[i].turn;
+    if (i + 1 == n) gap += 4.0;
+    if (gap >= 2.0) return static_cast<int>((i + 1) % n);
   }
   return -1;
 }
@@ -73,7 +78,7 @@ LocalStar CalcLocalStar(const Eigen::Vector3f& p_W, const Eigen::Vector3f& norma
     points.resize(LocalStar::kMaxDegree);
   }
   std::sort(points.begin(), points.end(),
-            [](const Point& a, const Point& b) { return a.angle != b.angle ? a.angle < b.angle : IsNearer(a, b); });
+            [](const Point& a, const Point& b) { return a.turn != b.turn ? a.turn < b.turn : IsNearer(a, b); });
   int start = FindStartAfterGap(points);
   star.closed = start < 0;
   if (star.closed) start = static_cast<int>(std::min_element(points.begin(), points.end(), IsNearer) - points.begin());

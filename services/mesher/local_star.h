@@ -32,7 +32,8 @@ struct LocalStar {
 /// Working space of CalcLocalStar, kept by the caller to spare allocations.
 struct StarScratch {
   struct Point {
-    double x = 0.0, y = 0.0, angle = 0.0;
+    double x = 0.0, y = 0.0;  // Inverted.
+    double turn = 0.0;         // Stands for the angle.
     uint32_t id = 0;
   };
   std::vector<Point> points;

@@ -23,30 +23,31 @@ struct Vertex {
     kOn,      ///< Moved onto, or founded on, a sharp ridge.
     kLoose,   ///< Was on one and looks for its place anew.
   };
-  State state = State::kFree;
-  Ridge ridge = Ridge::kNone;
-  bool fit_due = false;      ///< Measurements came near since the surface was fitted.
-  bool star_due = false;     ///< The vertex or its surroundings changed since the star was made.
-  bool publish_due = false;  ///< Something changed since it was published.
-  bool published = false;
-  uint16_t measurements = 0;     ///< Its own: those to which it was the nearest vertex; 65535 at most.
-  uint16_t curvature_per_m = 0;  ///< Of the fitted surface.
-  /// Normal at which the stars around it were made, in 1/32767.
-  std::array<int16_t, 3> star_normal_W{};
+  // What searches read comes first.
   Eigen::Vector3f p_W = Eigen::Vector3f::Zero();  ///< Metres.
+  int32_t next_in_cell = BrickGrid::kNone;
   /// Unit, towards the side that was seen. While pending, the sum of the unit directions from which it was measured.
   Eigen::Vector3f normal_W = Eigen::Vector3f::Zero();
+  State state = State::kFree;
+  Ridge ridge = Ridge::kNone;
+  uint16_t curvature_per_m = 0;  ///< Of the fitted surface.
+  int32_t support = 0;           ///< Measurements that carried the last fit,
+  int32_t fresh = 0;             ///< and those that came near since.
+  bool fit_due = false;          ///< Measurements came near since the surface was fitted.
+  bool star_due = false;         ///< The vertex or its surroundings changed since the star was made.
+  bool publish_due = false;      ///< Something changed since it was published.
+  bool published = false;
+  uint16_t measurements = 0;  ///< Its own: those to which it was the nearest vertex; 65535 at most.
+  /// Normal at which the stars around it were made, in 1/32767.
+  std::array<int16_t, 3> star_normal_W{};
   /// Fixed point through which the vertex moves along its normal, metres.
   Eigen::Vector3f anchor_W = Eigen::Vector3f::Zero();
   Eigen::Vector3f star_p_W = Eigen::Vector3f::Zero();       ///< Position at which the stars around it were made.
   Eigen::Vector3f published_p_W = Eigen::Vector3f::Zero();  ///< Position as last published.
   float information = 0.0f;                                 ///< Sum of 1/sigma^2 of its own measurements, 1/m^2.
   float best_cosine = -1.0f;                                ///< Of the incidence.
-  int32_t support = 0;                                      ///< Measurements that carried the last fit,
-  int32_t fresh = 0;                                        ///< and those that came near since.
   uint16_t first_scan = 0;
   uint16_t last_scan = 0;
-  int32_t next_in_cell = BrickGrid::kNone;
 };
 
 /// The vertices by number, and by place. Numbers are reused, last freed first.
