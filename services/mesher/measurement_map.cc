@@ -82,7 +82,7 @@ void MeasurementMap::Add(const Measurement& m, Entry& entry) {
 
 Sample MeasurementMap::MakeSample(const Entry& entry) {
   const Eigen::Vector3f view_W(entry.view_W[0], entry.view_W[1], entry.view_W[2]);
-  return {entry.p_W, view_W / kViewUnit, entry.weight, entry.measurements};
+  return {entry.p_W, view_W * (1.0f / kViewUnit), entry.weight, entry.measurements};
 }
 
 void MeasurementMap::Insert(const Measurement& m, const Eigen::Vector3f& side_W) {

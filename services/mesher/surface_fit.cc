@@ -29,12 +29,22 @@ Eigen::Matrix3f MakeFrame(const Eigen::Vector3f& normal_W) {
   return R;
 }
 
+/// Four samples side by side. The operators work on each.
+using Lanes [[gnu::vector_size(16)]] = float;
+
+float CalcTotal(Lanes v) { return (v[0] + v[1]) + (v[2] + v[3]); }
+
+Lanes CalcKernel(Lanes squared_distance, float inverse_squared_radius) {
+  const Lanes s = 1.0f - squared_distance * inverse_squared_radius;
+  return s > 0.0f ? s * s : Lanes{};
+}
+
 /// The surface z = q0 x^2 + q1 xy + q2 y^2 + q3 x + q4 y + q5 over a frame at the anchor.
 struct Quadric {
   Eigen::Matrix3f R_WL;
   Vector6 q;
 
-  float CalcHeight(float x, float y) const { return (q[0] * x + q[1] * y + q[3]) * x + (q[2] * y + q[4]) * y + q[5]; }
+  Lanes CalcHeight(Lanes x, Lanes y) const { return (q[0] * x + q[1] * y + q[3]) * x + (q[2] * y + q[4]) * y + q[5]; }
   /// The larger of the principal curvatures where the slope is small, 1/mm, without its sign.
   float CalcCurvature() const { return std::abs(q[0] + q[2]) + std::hypot(q[0] - q[2], q[1]); }
   Eigen::Vector3f CalcNormal_L() const { return Eigen::Vector3f(-q[3], -q[4], 1.0f).normalized(); }
@@ -48,34 +58,6 @@ struct Pass {
   float squared_residual = 0.0f;
   float near_weight = 0.0f;
   int measurements = 0;
-
-  void Add(const Eigen::Vector3f& p, float w, float residual, int count) {
-    const float x = p.x(), y = p.y(), wx = w * x, wy = w * y, wxx = wx * x, wxy = wx * y, wyy = wy * y;
-    const float xx = x * x, xy = x * y, yy = y * y, wz = w * p.z();
-    m[0] += w;
-    m[1] += wx;
-    m[2] += wy;
-    m[3] += wxx;
-    m[4] += wxy;
-    m[5] += wyy;
-    m[6] += wxx * x;
-    m[7] += wxx * y;
-    m[8] += wyy * x;
-    m[9] += wyy * y;
-    m[10] += wxx * xx;
-    m[11] += wxx * xy;
-    m[12] += wxx * yy;
-    m[13] += wyy * xy;
-    m[14] += wyy * yy;
-    right_side[0] += wz * xx;
-    right_side[1] += wz * xy;
-    right_side[2] += wz * yy;
-    right_side[3] += wz * x;
-    right_side[4] += wz * y;
-    right_side[5] += wz;
-    squared_residual += w * residual * residual;
-    measurements += count;
-  }
 
   /// Smallest standard deviation of the samples across the surface, millimetres.
   float CalcSpread() const {
@@ -102,24 +84,91 @@ struct Pass {
   }
 };
 
+/// The sums of a pass, by lane.
+struct LanePass {
+  std::array<Lanes, 15> m{};
+  std::array<Lanes, 6> right_side{};
+  Lanes squared_residual{}, near_weight{}, measurements{};
+
+  void Add(Lanes x, Lanes y, Lanes z, Lanes w, Lanes residual) {
+    const Lanes wx = w * x, wy = w * y, wxx = wx * x, wxy = wx * y, wyy = wy * y;
+    const Lanes xx = x * x, xy = x * y, yy = y * y, wz = w * z;
+    m[0] += w;
+    m[1] += wx;
+    m[2] += wy;
+    m[3] += wxx;
+    m[4] += wxy;
+    m[5] += wyy;
+    m[6] += wxx * x;
+    m[7] += wxx * y;
+    m[8] += wyy * x;
+    m[9] += wyy * y;
+    m[10] += wxx * xx;
+    m[11] += wxx * xy;
+    m[12] += wxx * yy;
+    m[13] += wyy * xy;
+    m[14] += wyy * yy;
+    right_side[0] += wz * xx;
+    right_side[1] += wz * xy;
+    right_side[2] += wz * yy;
+    right_side[3] += wz * x;
+    right_side[4] += wz * y;
+    right_side[5] += wz;
+    squared_residual += w * residual * residual;
+  }
+
+  Pass CalcTotals() const {
+    Pass pass;
+    for (size_t i = 0; i < m.size(); ++i) pass.m[i] = CalcTotal(m[i]);
+    for (size_t i = 0; i < right_side.size(); ++i) pass.right_side[static_cast<int>(i)] = CalcTotal(right_side[i]);
+    pass.squared_residual = CalcTotal(squared_residual);
+    pass.near_weight = CalcTotal(near_weight);
+    pass.measurements = static_cast<int>(CalcTotal(measurements));
+    return pass;
+  }
+};
+
+/// Up to four samples, in the frame of a fit; those that are missing weigh nothing.
+struct FourSamples {
+  std::array<Lanes, 3> p_L{};  // Millimetres.
+  Lanes cosine{}, weight{}, measurements{};
+
+  FourSamples(std::span<const Sample> samples, const Eigen::Vector3f& anchor_W, const Eigen::Matrix3f& R_WL) {
+    std::array<Lanes, 3> d_W{}, view_W{};
+    for (size_t k = 0; k < samples.size(); ++k) {
+      const Sample& s = samples[k];
+      for (int i = 0; i < 3; ++i) {
+        d_W[i][k] = s.p_W[i];
+        view_W[i][k] = s.view_W[i];
+      }
+      weight[k] = s.weight;
+      measurements[k] = static_cast<float>(s.measurements);
+    }
+    for (int i = 0; i < 3; ++i) d_W[i] = kMillimetre * (d_W[i] - anchor_W[i]);
+    for (int i = 0; i < 3; ++i) p_L[i] = R_WL(0, i) * d_W[0] + R_WL(1, i) * d_W[1] + R_WL(2, i) * d_W[2];
+    cosine = R_WL(0, 2) * view_W[0] + R_WL(1, 2) * view_W[1] + R_WL(2, 2) * view_W[2];
+  }
+};
+
 Pass MakePass(std::span<const Sample> samples, const Eigen::Vector3f& anchor_W, const Quadric& surface,
               const SurfaceFitSettings& settings) {
-  const float squared_radius = settings.radius_m * settings.radius_m * kMillimetre * kMillimetre;
-  const float squared_tolerance = settings.height_tolerance_m * settings.height_tolerance_m * kMillimetre * kMillimetre;
-  const Eigen::Matrix3f to_L = kMillimetre * surface.R_WL.transpose();
-  Pass pass;
-  for (const Sample& s : samples) {
-    const Eigen::Vector3f p = to_L * (s.p_W - anchor_W);
-    const float near = CalcKernel(p.squaredNorm(), squared_radius);
-    const float cosine = s.view_W.dot(surface.R_WL.col(2));
-    if (near <= 0.0f || cosine <= 0.0f) continue;
-    const float residual = p.z() - surface.CalcHeight(p.x(), p.y());
-    const float w = cosine * s.weight * near * CalcKernel(residual * residual, squared_tolerance);
-    if (w <= 0.0f) continue;
-    pass.Add(p, w, residual, s.measurements);
-    if (p.squaredNorm() < 0.25f * squared_radius) pass.near_weight += w;
+  const float radius = kMillimetre * settings.radius_m, tolerance = kMillimetre * settings.height_tolerance_m;
+  const float inverse_squared_radius = 1.0f / (radius * radius);
+  const float inverse_squared_tolerance = 1.0f / (tolerance * tolerance);
+  LanePass pass;
+  for (; !samples.empty(); samples = samples.subspan(std::min<size_t>(4, samples.size()))) {
+    const FourSamples s(samples.first(std::min<size_t>(4, samples.size())), anchor_W, surface.R_WL);
+    const auto& [x, y, z] = s.p_L;
+    const Lanes squared_distance = x * x + y * y + z * z;
+    const Lanes residual = z - surface.CalcHeight(x, y);
+    const Lanes cosine = s.cosine > 0.0f ? s.cosine : Lanes{};
+    const Lanes w = cosine * s.weight * CalcKernel(squared_distance, inverse_squared_radius) *
+                    CalcKernel(residual * residual, inverse_squared_tolerance);
+    pass.Add(x, y, z, w, residual);
+    pass.near_weight += squared_distance < 0.25f * radius * radius ? w : Lanes{};
+    pass.measurements += w > 0.0f ? s.measurements : Lanes{};
   }
-  return pass;
+  return pass.CalcTotals();
 }
 
 }  // namespace
