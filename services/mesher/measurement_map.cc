@@ -108,6 +108,7 @@ uint64_t MeasurementMap::MakeMask(const Cluster& cluster, const Eigen::Vector3f&
 void MeasurementMap::Gather(const Eigen::Vector3f& p_W, float radius_m, const Eigen::Vector3f& side_W,
                             float least_cosine, std::vector<Sample>& samples) const {
   const float squared_radius = radius_m * radius_m;
+  const float least_signed_square = least_cosine * std::abs(least_cosine);
   clusters_at_.ForEachCell(p_W, radius_m, [&](int32_t number) {
     const Cluster& cluster = clusters_[static_cast<size_t>(number)];
     const uint64_t box = MakeMask(cluster, p_W, radius_m);
@@ -117,7 +118,8 @@ void MeasurementMap::Gather(const Eigen::Vector3f& p_W, float radius_m, const Ei
         const Entry& entry = first[std::popcount(occupied & ((cells & -cells) - 1))];
         if ((entry.p_W - p_W).squaredNorm() > squared_radius) continue;
         const Sample sample = MakeSample(entry);
-        if (sample.view_W.dot(side_W) > least_cosine * sample.view_W.norm()) samples.push_back(sample);
+        const float along = sample.view_W.dot(side_W);
+        if (along * std::abs(along) > least_signed_square * sample.view_W.squaredNorm()) samples.push_back(sample);
       }
       first += std::popcount(occupied);
     }

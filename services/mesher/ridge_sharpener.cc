@@ -46,10 +46,12 @@ void RidgeSharpener::FindCandidates(std::span<const uint32_t> ids) {
 
 void RidgeSharpener::CollectTangents(const Eigen::Vector3f& p_W) {
   tangents_.clear();
+  const float squared_reach = settings_.roof.reach_m * settings_.roof.reach_m;
   vertices_.ForEachNear(p_W, settings_.roof.reach_m, [&](uint32_t id) {
     const Vertex& v = vertices_[id];
     if (v.state == Vertex::State::kReal && v.ridge == Vertex::Ridge::kNone &&
-        v.curvature_per_m < settings_.flat_curvature_per_m && triangulation_.IsSurrounded(id))
+        v.curvature_per_m < settings_.flat_curvature_per_m && (v.p_W - p_W).squaredNorm() < squared_reach &&
+        triangulation_.IsSurrounded(id))
       tangents_.push_back({v.p_W, v.normal_W});
   });
 }

@@ -19,11 +19,12 @@ float CalcKernel(float squared_distance, float squared_radius) {
 
 constexpr size_t kMostPlanes = 3;
 
-/// True if no normal turns from the first by the angle or more: then no two of them, nor means of them, by twice that.
+/// True if no normal turns from their mean by the angle or more: then no two of them, nor means of them, by twice that.
 bool AreWithinCone(std::span<const Tangent> tangents, float angle_rad) {
-  const float least_cosine = std::cos(angle_rad);
-  return std::all_of(tangents.begin(), tangents.end(),
-                     [&](const Tangent& t) { return t.normal_W.dot(tangents.front().normal_W) > least_cosine; });
+  Vector3f sum = Vector3f::Zero();
+  for (const Tangent& t : tangents) sum += t.normal_W;
+  const float least = std::cos(angle_rad) * sum.norm();
+  return std::all_of(tangents.begin(), tangents.end(), [&](const Tangent& t) { return t.normal_W.dot(sum) > least; });
 }
 
 }  // namespace
@@ -43,11 +44,11 @@ Roof::Plane Roof::MakePlane(std::span<const Tangent> group, const Vector3f& p_W,
 }
 
 std::optional<Roof> Roof::Fit(std::span<const Tangent> tangents, const Vector3f& p_W, const RoofSettings& settings) {
-  if (tangents.empty() || AreWithinCone(tangents, 0.5f * settings.least_angle_rad)) return std::nullopt;
   std::vector<Tangent> sorted;
   for (const Tangent& t : tangents) {
     if ((t.p_W - p_W).squaredNorm() < settings.reach_m * settings.reach_m) sorted.push_back(t);
   }
+  if (AreWithinCone(sorted, 0.5f * settings.least_angle_rad)) return std::nullopt;
   std::stable_sort(sorted.begin(), sorted.end(), [&](const Tangent& a, const Tangent& b) {
     return (a.p_W - p_W).squaredNorm() < (b.p_W - p_W).squaredNorm();
   });
