@@ -38,7 +38,7 @@ uint32_t FindNext(const MeshTopology& mesh, const VertexStore& vertices, uint32_
 }  // namespace
 
 BorderWalk FindBorderLoop(const MeshTopology& mesh, const VertexStore& vertices, uint32_t start, uint32_t second,
-                          size_t most_edges, const VertexSet& known_long, std::vector<uint32_t>& loop) {
+                          size_t most_edges, const NumberSet& known_long, std::vector<uint32_t>& loop) {
   std::vector<uint32_t> successors;
   mesh.FindBorderSuccessors(start, successors);
   bool simple = successors.size() == 1;

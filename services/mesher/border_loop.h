@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "services/mesher/mesh_topology.h"
-#include "services/mesher/vertex_set.h"
+#include "services/mesher/number_set.h"
 #include "services/mesher/vertex_store.h"
 
 namespace nbs {
@@ -23,6 +23,6 @@ enum class BorderWalk {
 /// @param loop           Out: the vertices in order, `start` first; if kLong, up to where the rest is known.
 /// @returns kTangled also if the way comes to a vertex twice.
 BorderWalk FindBorderLoop(const MeshTopology& mesh, const VertexStore& vertices, uint32_t start, uint32_t second,
-                          size_t most_edges, const VertexSet& known_long, std::vector<uint32_t>& loop);
+                          size_t most_edges, const NumberSet& known_long, std::vector<uint32_t>& loop);
 
 }  // namespace nbs

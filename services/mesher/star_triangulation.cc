@@ -67,6 +67,7 @@ void StarTriangulation::Update(std::span<const uint32_t> due, const VertexStore&
     RemoveFillingsAt(id);
     MakeStar(id, vertices);
   }
+  checked_.Clear();
   for (uint32_t id : due) RemoveDisagreed(id, vertices);
   for (uint32_t id : due) InsertAgreed(id, vertices);
   touched_.insert(touched_.end(), due.begin(), due.end());
@@ -184,9 +185,12 @@ bool StarTriangulation::IsAgreed(const MeshTopology::Triangle& t, const VertexSt
 }
 
 void StarTriangulation::RemoveDisagreed(uint32_t id, const VertexStore& vertices) {
-  std::vector<uint32_t> slots;
-  for (uint32_t slot : topology_.TrianglesAt(id)) slots.push_back(slot);
-  for (uint32_t slot : slots) {
+  slots_.clear();
+  for (uint32_t slot : topology_.TrianglesAt(id)) {
+    if (!checked_.Contains(slot)) slots_.push_back(slot);
+  }
+  checked_.Insert(slots_);
+  for (uint32_t slot : slots_) {
     if (topology_.group(slot) == kAgreed && !IsAgreed(topology_.triangles()[slot], vertices)) RemoveTriangle(slot);
   }
 }

@@ -8,7 +8,7 @@
 #include "services/mesher/loop_filling.h"
 #include "services/mesher/mesh_topology.h"
 #include "services/mesher/star_store.h"
-#include "services/mesher/vertex_set.h"
+#include "services/mesher/number_set.h"
 #include "services/mesher/vertex_store.h"
 
 namespace nbs {
@@ -93,8 +93,10 @@ class StarTriangulation {
   std::vector<MeshTopology::Triangle> held_back_;
   std::vector<uint32_t> touched_;            // Vertices of triangles that came or went since the last look at them,
   std::vector<uint32_t> touched_in_update_;  // and in the whole update.
-  VertexSet long_border_;                    // Vertices on borders known to be too long to be filled.
-  VertexSet large_parts_;                    // Vertices of parts known not to be held back.
+  NumberSet long_border_;                    // Vertices on borders known to be too long to be filled.
+  NumberSet large_parts_;                    // Vertices of parts known not to be held back.
+  NumberSet checked_;                        // Slots of triangles that all stars have been asked about.
+  std::vector<uint32_t> slots_;
   std::vector<StarCandidate> candidates_;
   StarScratch scratch_;
 };

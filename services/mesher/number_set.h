@@ -6,8 +6,8 @@
 
 namespace nbs {
 
-/// Numbers of vertices, at a bit each, that is emptied in the time that filling it took.
-class VertexSet {
+/// Numbers, at a bit each, that is emptied in the time that filling it took.
+class NumberSet {
  public:
   void Insert(std::span<const uint32_t> ids) {
     for (uint32_t id : ids) {
