@@ -38,14 +38,14 @@ uint32_t FindNext(const MeshTopology& mesh, const VertexStore& vertices, uint32_
 }  // namespace
 
 BorderWalk FindBorderLoop(const MeshTopology& mesh, const VertexStore& vertices, uint32_t start, uint32_t second,
-                          size_t most_edges, const NumberSet& known_long, std::vector<uint32_t>& loop) {
+                          size_t most_edges, const NumberSet& known_open, std::vector<uint32_t>& loop) {
   std::vector<uint32_t> successors;
   mesh.FindBorderSuccessors(start, successors);
   bool simple = successors.size() == 1;
   loop.assign({start});
   uint32_t from = start, at = second;
   while (at != start) {
-    if (simple && known_long.Contains(at)) return BorderWalk::kLong;
+    if (simple && known_open.Contains(at)) return BorderWalk::kLong;
     if (loop.size() == most_edges) return simple ? BorderWalk::kLong : BorderWalk::kTangled;
     if (at == MeshTopology::kNone || std::find(loop.begin(), loop.end(), at) != loop.end()) return BorderWalk::kTangled;
     loop.push_back(at);

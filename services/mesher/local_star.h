@@ -33,7 +33,7 @@ struct LocalStar {
 struct StarScratch {
   struct Point {
     double x = 0.0, y = 0.0;  // Inverted.
-    double turn = 0.0;         // Stands for the angle.
+    double turn = 0.0;        // Stands for the angle.
     uint32_t id = 0;
   };
   std::vector<Point> points;

@@ -69,7 +69,9 @@ class MeshTopology {
   uint32_t Next(uint32_t slot, uint32_t vertex) const;
   uint32_t Previous(uint32_t slot, uint32_t vertex) const;
 
-  bool IsOnBorder(uint32_t vertex) const { return vertex < borders_.size() && borders_[vertex] != 0; }
+  /// Border edges that begin at the vertex.
+  int CountBordersFrom(uint32_t vertex) const { return vertex < borders_.size() ? borders_[vertex] : 0; }
+  bool IsOnBorder(uint32_t vertex) const { return CountBordersFrom(vertex) != 0; }
 
   /// The vertices to which a border runs from `vertex`, walking with the gap on the left.
   void FindBorderSuccessors(uint32_t vertex, std::vector<uint32_t>& successors) const;
@@ -106,7 +108,7 @@ class MeshTopology {
 
   PagedVector<Slot> slots_;
   PagedVector<First> first_;
-  PagedVector<uint8_t> borders_;  // Border edges that begin at each vertex,
+  PagedVector<uint8_t> borders_;       // Border edges that begin at each vertex,
   PagedVector<uint32_t> border_ends_;  // and the exclusive or of the vertices where they end.
   std::vector<bool> changed_;
   std::vector<uint32_t> changed_list_;

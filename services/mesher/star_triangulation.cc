@@ -144,7 +144,7 @@ void StarTriangulation::HoldBack(const std::vector<uint32_t>& slots) {
 }
 
 void StarTriangulation::FillLoops(const VertexStore& vertices) {
-  long_border_.Clear();
+  open_border_.Clear();
   std::vector<uint32_t> round;
   while (!touched_.empty()) {  // A filling can untangle the loop beside it: its vertices are looked at once more.
     round.clear();
@@ -243,20 +243,26 @@ void StarTriangulation::RemoveFilling(int32_t group) {
 }
 
 void StarTriangulation::FillLoopsAt(uint32_t id, const VertexStore& vertices) {
-  if (!topology_.IsOnBorder(id) || long_border_.Contains(id)) return;
+  if (!topology_.IsOnBorder(id) || open_border_.Contains(id)) return;
   std::vector<uint32_t> successors, loop;
   topology_.FindBorderSuccessors(id, successors);
   std::sort(successors.begin(), successors.end());
   for (uint32_t second : successors) {
     if (topology_.Find(second, id) == MeshTopology::kNone || topology_.Find(id, second) != MeshTopology::kNone)
       continue;
-    const BorderWalk walk = FindBorderLoop(topology_, vertices, id, second, settings_.max_loop_edges, long_border_, loop);
-    if (walk == BorderWalk::kLong) long_border_.Insert(loop);
-    if (walk == BorderWalk::kClosed) FillLoop(loop, vertices);
+    const BorderWalk walk =
+        FindBorderLoop(topology_, vertices, id, second, settings_.max_loop_edges, open_border_, loop);
+    const bool is_filled = walk == BorderWalk::kClosed && FillLoop(loop, vertices);
+    if (walk == BorderWalk::kLong || (walk == BorderWalk::kClosed && !is_filled && IsSimple(loop)))
+      open_border_.Insert(loop);
   }
 }
 
-void StarTriangulation::FillLoop(std::span<const uint32_t> loop, const VertexStore& vertices) {
+bool StarTriangulation::IsSimple(std::span<const uint32_t> loop) const {
+  return std::all_of(loop.begin(), loop.end(), [&](uint32_t v) { return topology_.CountBordersFrom(v) == 1; });
+}
+
+bool StarTriangulation::FillLoop(std::span<const uint32_t> loop, const VertexStore& vertices) {
   // Corner 0 is the smallest number, so that the filling does not depend on where the walk began.
   std::vector<uint32_t> ring(loop.begin(), loop.end());
   std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
@@ -267,8 +273,7 @@ void StarTriangulation::FillLoop(std::span<const uint32_t> loop, const VertexSto
            topology_.Find(ring[j], ring[i]) == MeshTopology::kNone;
   };
   const auto triangles = TriangulateLoop(corners, may_join);
-  if (triangles.empty()) return;
-  long_border_.Clear();
+  if (triangles.empty()) return false;
   int32_t group = static_cast<int32_t>(fillings_.size());
   if (free_fillings_.empty()) {
     fillings_.emplace_back();
@@ -278,6 +283,7 @@ void StarTriangulation::FillLoop(std::span<const uint32_t> loop, const VertexSto
   }
   for (const auto& t : triangles)
     fillings_[group].push_back(topology_.Insert({ring[t[0]], ring[t[1]], ring[t[2]]}, group));
+  return true;
 }
 
 }  // namespace nbs

@@ -7,8 +7,8 @@
 #include "services/mesher/local_star.h"
 #include "services/mesher/loop_filling.h"
 #include "services/mesher/mesh_topology.h"
-#include "services/mesher/star_store.h"
 #include "services/mesher/number_set.h"
+#include "services/mesher/star_store.h"
 #include "services/mesher/vertex_store.h"
 
 namespace nbs {
@@ -82,7 +82,8 @@ class StarTriangulation {
   void HoldBack(const std::vector<uint32_t>& slots);
   void FillLoops(const VertexStore& vertices);
   void FillLoopsAt(uint32_t id, const VertexStore& vertices);
-  void FillLoop(std::span<const uint32_t> loop, const VertexStore& vertices);
+  bool IsSimple(std::span<const uint32_t> loop) const;
+  bool FillLoop(std::span<const uint32_t> loop, const VertexStore& vertices);
 
   TriangulationSettings settings_;
   float least_normal_cosine_;
@@ -93,7 +94,7 @@ class StarTriangulation {
   std::vector<MeshTopology::Triangle> held_back_;
   std::vector<uint32_t> touched_;            // Vertices of triangles that came or went since the last look at them,
   std::vector<uint32_t> touched_in_update_;  // and in the whole update.
-  NumberSet long_border_;                    // Vertices on borders known to be too long to be filled.
+  NumberSet open_border_;                    // Vertices on borders known to stay open.
   NumberSet large_parts_;                    // Vertices of parts known not to be held back.
   NumberSet checked_;                        // Slots of triangles that all stars have been asked about.
   std::vector<uint32_t> slots_;
