@@ -32,8 +32,8 @@ float CalcCircumradius(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const
 
 }  // namespace
 
-StarTriangulation::StarTriangulation(const TriangulationSettings& settings)
-    : settings_(settings), least_normal_cosine_(std::cos(settings.max_normal_angle_rad)) {}
+StarTriangulation::StarTriangulation(const MeasurementMap& measurements, const TriangulationSettings& settings)
+    : measurements_(measurements), settings_(settings), least_normal_cosine_(std::cos(settings.max_normal_angle_rad)) {}
 
 bool StarTriangulation::MayJoin(const Vertex& a, const Vertex& b) const {
   const Eigen::Vector3f d = b.p_W - a.p_W;
@@ -51,6 +51,16 @@ bool StarTriangulation::MayJoin(const Vertex& a, const Vertex& b) const {
          std::abs(d.dot(b.normal_W)) <= kSteepest * length;
 }
 
+/// True if something was measured about halfway, as the ground of a crevice is.
+bool StarTriangulation::IsMeasuredBetween(const Vertex& a, const Vertex& b) const {
+  constexpr float kMiddle = 0.25f, kAnyView = -2.0f;
+  const Eigen::Vector3f middle_W = 0.5f * (a.p_W + b.p_W), d = b.p_W - a.p_W;
+  std::vector<Sample> samples;
+  measurements_.Gather(middle_W, settings_.ground_reach_m, d.normalized(), kAnyView, samples);
+  return std::any_of(samples.begin(), samples.end(),
+                     [&](const Sample& s) { return std::abs(d.dot(s.p_W - middle_W)) < kMiddle * d.squaredNorm(); });
+}
+
 bool StarTriangulation::MayBridge(const Vertex& a, const Vertex& b) const {
   const Eigen::Vector3f d = b.p_W - a.p_W;
   const float length = d.norm();
@@ -59,7 +69,8 @@ bool StarTriangulation::MayBridge(const Vertex& a, const Vertex& b) const {
   // crevice.
   constexpr float kLeastParting = 0.3f;
   constexpr float kOpposite = -0.5f;
-  return a.normal_W.dot(b.normal_W) > kOpposite || d.dot(b.normal_W - a.normal_W) > kLeastParting * length;
+  return a.normal_W.dot(b.normal_W) > kOpposite || d.dot(b.normal_W - a.normal_W) > kLeastParting * length ||
+         IsMeasuredBetween(a, b);
 }
 
 void StarTriangulation::Update(std::span<const uint32_t> due, const VertexStore& vertices) {

@@ -27,6 +27,9 @@ struct TriangulationSettings {
   /// A loop of at most so many edges is closed if that takes no diagonal longer than max_bridge_m.
   size_t max_loop_edges = 24;
   float max_bridge_m = 0.007f;
+  /// Nor one between walls that face each other, unless something was measured about halfway, within this of its
+  /// middle.
+  float ground_reach_m = 0.003f;
   /// Parts of fewer triangles, joined to nothing by an edge, are held back until they grow.
   size_t least_part = 12;
 };
@@ -42,10 +45,15 @@ struct TriangulationSettings {
 /// beside it.
 class StarTriangulation {
  public:
-  explicit StarTriangulation(const TriangulationSettings& settings);
+  /// @param measurements  Outlive it.
+  StarTriangulation(const MeasurementMap& measurements, const TriangulationSettings& settings);
 
   /// True if an edge between the two is allowed: near enough, same side, same sheet. Symmetric.
   bool MayJoin(const Vertex& a, const Vertex& b) const;
+
+  /// True if a diagonal between the two is allowed where a loop is closed: short enough, and not across a crevice whose
+  /// ground was not measured. Symmetric.
+  bool MayBridge(const Vertex& a, const Vertex& b) const;
 
   /// Makes the stars of `due` anew and brings the triangles in line with them.
   ///
@@ -66,7 +74,7 @@ class StarTriangulation {
   // Group of the triangles that the stars agree on; fillings have numbers from 0.
   static constexpr int32_t kAgreed = -1;
 
-  bool MayBridge(const Vertex& a, const Vertex& b) const;
+  bool IsMeasuredBetween(const Vertex& a, const Vertex& b) const;
   void MakeStar(uint32_t id, const VertexStore& vertices);
   bool IsAgreed(const MeshTopology::Triangle& t, const VertexStore& vertices) const;
   bool HasGoodShape(const MeshTopology::Triangle& t, const VertexStore& vertices) const;
@@ -85,6 +93,7 @@ class StarTriangulation {
   bool IsSimple(std::span<const uint32_t> loop) const;
   bool FillLoop(std::span<const uint32_t> loop, const VertexStore& vertices);
 
+  const MeasurementMap& measurements_;
   TriangulationSettings settings_;
   float least_normal_cosine_;
   MeshTopology topology_;

@@ -17,7 +17,7 @@ StreamingMesher::StreamingMesher(const Profiler& profiler, const StreamingMesher
       settings_(settings),
       measurements_(settings.cell_m),
       vertices_(2.0f * settings.spacing_m),
-      triangulation_(settings.triangulation) {
+      triangulation_(measurements_, settings.triangulation) {
   for (const Eigen::Vector3d& d : CalcBeamDirections_S(profiler)) directions_S_.push_back(d.cast<float>());
 }
 

@@ -93,13 +93,14 @@ class RandomMoves : public testing::TestWithParam<uint64_t> {};
 
 TEST_P(RandomMoves, LeaveWhatAllVerticesAtOnceWouldMake) {
   Hills hills(GetParam(), 0.0);
-  StarTriangulation triangulation({});
+  const MeasurementMap measurements(0.002f);
+  StarTriangulation triangulation(measurements, {});
   triangulation.Update(hills.All(), hills.vertices());
   for (int step = 0; step < 30; ++step) {
     triangulation.Update(hills.MoveSome(0.02), hills.vertices());
     const auto fault = FindFault(triangulation.topology().triangles(), hills.vertices());
     ASSERT_FALSE(fault) << *fault << " after step " << step;
-    StarTriangulation at_once({});
+    StarTriangulation at_once(measurements, {});
     at_once.Update(hills.All(), hills.vertices());
     const std::set<Triangle> kept = CollectTriangles(triangulation), made = CollectTriangles(at_once);
     ASSERT_GT(made.size(), 500u);
@@ -111,7 +112,8 @@ TEST_P(RandomMoves, LeaveWhatAllVerticesAtOnceWouldMake) {
 
 TEST_P(RandomMoves, LeaveASoundMeshAtRaggedBorders) {
   Hills hills(GetParam(), 0.3);
-  StarTriangulation triangulation({});
+  const MeasurementMap measurements(0.002f);
+  StarTriangulation triangulation(measurements, {});
   triangulation.Update(hills.All(), hills.vertices());
   for (int step = 0; step < 100; ++step) {
     triangulation.Update(hills.MoveSome(0.05), hills.vertices());
@@ -142,12 +144,53 @@ VertexStore MakeFloor(bool with_wall) {
 }
 
 bool JoinsSomething(const VertexStore& vertices) {
-  StarTriangulation triangulation({});
+  const MeasurementMap measurements(0.002f);
+  StarTriangulation triangulation(measurements, {});
   std::vector<uint32_t> all(vertices.size());
   for (uint32_t i = 0; i < all.size(); ++i) all[i] = i;
   triangulation.Update(all, vertices);
   return !triangulation.topology().TrianglesAt(0).empty();
 }
+
+/// Two points 5 mm from each other on walls that stand on the floor z = 0.
+struct Walls {
+  explicit Walls(bool facing) {
+    const Vector3f normal_W = facing ? Vector3f::UnitX() : Vector3f(-Vector3f::UnitX());
+    left.p_W = {-0.0025f, 0.0f, 0.002f};
+    left.normal_W = normal_W;
+    right.p_W = {0.0025f, 0.0f, 0.002f};
+    right.normal_W = -normal_W;
+  }
+  bool MayBeBridged() const { return StarTriangulation(measurements, {}).MayBridge(left, right); }
+  void Measure(float x, float z) { measurements.Insert({{x, 0.0f, z}, Vector3f::UnitZ(), 2e-4f}, Vector3f::UnitZ()); }
+
+  MeasurementMap measurements{0.002f};
+  Vertex left, right;
+};
+
+TEST(StarTriangulation, CreviceIsBridgedWhereItsGroundWasMeasured) {
+  Walls walls(true);
+  EXPECT_FALSE(walls.MayBeBridged());
+  walls.Measure(0.0005f, 0.0f);
+  EXPECT_TRUE(walls.MayBeBridged());
+}
+
+TEST(StarTriangulation, CreviceIsNotBridgedOverItsWallsAlone) {
+  Walls walls(true);
+  for (const float z : {0.0f, 0.002f, 0.004f}) {
+    walls.Measure(-0.0025f, z);
+    walls.Measure(0.0025f, z);
+  }
+  EXPECT_FALSE(walls.MayBeBridged());
+}
+
+TEST(StarTriangulation, CreviceIsNotBridgedFarAboveItsGround) {
+  Walls walls(true);
+  walls.Measure(0.0f, 0.002f - 1.1f * TriangulationSettings{}.ground_reach_m);
+  EXPECT_FALSE(walls.MayBeBridged());
+}
+
+TEST(StarTriangulation, RimOfAPlateIsBridgedWithoutMeasurements) { EXPECT_TRUE(Walls(false).MayBeBridged()); }
 
 TEST(StarTriangulation, VertexBehindASheetJoinsNothing) {
   EXPECT_FALSE(JoinsSomething(MakeFloor(true)));
