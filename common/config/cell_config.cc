@@ -72,6 +72,7 @@ void ReadTable(const StrictReader& reader, CellConfig& cell) {
 void ReadArmOf(const std::filesystem::path& file, const StrictReader& reader, ArmConfig& arm) {
   static constexpr std::array<std::string_view, 2> kMethods = {"analytic", "numeric"};
   static constexpr std::array<std::string_view, 2> kSearches = {"rrt_connect", "prm"};
+  static constexpr std::array<std::string_view, 2> kRegistrations = {"none", "joint"};
   std::string urdf;
   reader.Read("urdf", urdf);
   if (urdf.empty()) reader.Fail("urdf", "an arm needs `urdf`, the name of its URDF file");
@@ -80,6 +81,7 @@ void ReadArmOf(const std::filesystem::path& file, const StrictReader& reader, Ar
   reader.Read("flange_link", arm.flange_link);
   reader.ReadChoice("inverse_kinematics", "inverse kinematics", kMethods, arm.inverse_kinematics);
   reader.ReadChoice("motion_search", "motion search", kSearches, arm.motion_search);
+  reader.ReadChoice("registration", "registration", kRegistrations, arm.registration);
   reader.Read("X_OB", arm.X_OB);
   reader.Read("start_rad", arm.start_rad);
   reader.Read("max_rad_per_s2", arm.max_rad_per_s2);
@@ -104,8 +106,8 @@ void ReadRobot(const std::filesystem::path& file, const StrictReader& reader, St
   if (!arm) reader.Fail("arm", "the robot is an arm, but `arm` is missing");
   ReadArmOf(file,
             reader.Inner(*arm,
-                         {"urdf", "base_link", "flange_link", "inverse_kinematics", "motion_search", "X_OB",
-                          "start_rad", "max_rad_per_s2", "pose_bias_m", "pose_noise_m"},
+                         {"urdf", "base_link", "flange_link", "inverse_kinematics", "motion_search", "registration",
+                          "X_OB", "start_rad", "max_rad_per_s2", "pose_bias_m", "pose_noise_m"},
                          missing),
             cell.arm.emplace());
 }
@@ -201,6 +203,7 @@ std::string FormatArm(const std::optional<ArmConfig>& arm, const std::string& in
   add("flange_link", QuoteYaml(arm->flange_link));
   add("inverse_kinematics", arm->inverse_kinematics);
   add("motion_search", arm->motion_search);
+  add("registration", arm->registration);
   add("X_OB", FormatPose(arm->X_OB));
   add("start_rad", FormatList(arm->start_rad));
   add("max_rad_per_s2", FormatList(arm->max_rad_per_s2));

@@ -25,6 +25,7 @@ struct ArmConfig {
   std::string flange_link = "tool0";
   std::string inverse_kinematics = "analytic";  ///< Or "numeric", for arms without a spherical wrist.
   std::string motion_search = "rrt_connect";    ///< Or "prm": how ways to the start of a scan path are searched.
+  std::string registration = "none";            ///< Or "joint": after the run all scans are registered with each other.
   Pose X_OB = Pose::Identity();                 ///< Base in O. The floor lies at the height of its origin.
   std::vector<double> start_rad;                ///< Joint values at the start.
   std::vector<double> max_rad_per_s2;           ///< Acceleration of each joint.

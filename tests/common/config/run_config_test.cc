@@ -59,7 +59,7 @@ TEST(RunConfig, ArmReadsBackBitForBitAndItsUrdfMovesWithTheFolder) {
   RunConfig written = MakeConfig(folder);
   written.cell.robot = "arm";
   ArmConfig& arm = written.cell.arm.emplace();
-  arm = {folder / "robot.urdf", "base",          "tool",           "numeric", "prm",
+  arm = {folder / "robot.urdf", "base",          "tool",           "numeric", "prm", "joint",
          MakeCrookedPose(0.4),  {1.0 / 3.0, -2}, {0.1, 7.0 / 9.0}, 1.0 / 7.0, 1e-9};
   WriteRunConfig(written);
   const auto moved = folder / "moved";
@@ -71,6 +71,7 @@ TEST(RunConfig, ArmReadsBackBitForBitAndItsUrdfMovesWithTheFolder) {
   EXPECT_EQ(read.flange_link, "tool");
   EXPECT_EQ(read.inverse_kinematics, "numeric");
   EXPECT_EQ(read.motion_search, "prm");
+  EXPECT_EQ(read.registration, "joint");
   EXPECT_EQ(read.X_OB.matrix(), arm.X_OB.matrix());
   EXPECT_EQ(read.start_rad, arm.start_rad);
   EXPECT_EQ(read.max_rad_per_s2, arm.max_rad_per_s2);
