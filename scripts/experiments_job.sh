@@ -65,7 +65,7 @@ do_run() {
   "$nbs_root/scripts/scan" --object "$object" "${method_options[@]}" --seed "$seed" --cell "$cell" --max-scans "$max_scans" --completeness 1 --out "$place" || return $?
   run_done "$place" || { echo "the run has no whole report" && return 2; }
   "$nbs_bin/nbs-pictures" --run "$place" --after 5 15 30 || return $?
-  if [[ $keep_streams != yes ]]; then rm -rf "$place/streams" "$place/bus.lcm"; fi
+  if [[ $keep_streams != yes ]]; then rm -rf "$place/streams" "$place/registered" "$place/bus.lcm"; fi
 }
 
 do_oracle() {

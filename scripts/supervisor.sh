@@ -123,6 +123,15 @@ supervise() {
   done
 }
 
+# register_scans: where the cell asks for it, RUN/registered: the scans registered with each other and meshed anew. Out of a Ctrl-C's reach.
+register_scans() {
+  local code=0
+  setsid -w setpriv --pdeathsig KILL -- "$nbs_bin/nbs-remesh" --run "$nbs_run" 2>>"$nbs_run/logs/remesh.log" </dev/null || code=$?
+  if ((code == 0)); then return; fi
+  say "the scans could not be registered with each other: $(last_words remesh)"
+  return 2
+}
+
 # write_report: folds RUN/streams into the run's results, also after a run that was cut short. Out of a Ctrl-C's reach.
 write_report() {
   local code=0
@@ -147,6 +156,7 @@ finish_run() {
   trap '' INT TERM HUP
   stop_services
   if ((code != 1)); then
+    register_scans || code=$((code == 0 ? 2 : code))
     if write_report; then
       if ((code == 0)) && has_failed; then
         code=2

@@ -29,18 +29,21 @@ int WriteOffline(const std::filesystem::path& run_folder) {
     const auto motions =
         nbs::GroupMotions(nbs::ReadAll<nbs::Trajectory>(run_folder), nbs::ReadAll<nbs::RobotState>(run_folder),
                           nbs::ReadAll<nbs::Execution>(run_folder));
-    nbs::Findings findings = truth.Find(reporter.mesh().MakeCompactMesh(), motions);
+    const auto folder = run_folder / "registered";
+    const auto registered = nbs::MakeRegisteredModel(
+        {nbs::ReadAll<nbs::MeshDelta>(folder), nbs::ReadAll<nbs::MeshScan>(folder), nbs::ReadAll<nbs::Stripe>(folder)},
+        nbs::ReadAll<nbs::Stripe>(run_folder), truth.MakeEvaluator());
+    nbs::Findings findings = truth.Find((registered ? registered->mesh : reporter.mesh()).MakeCompactMesh(), motions);
     findings.time.mesh_s = nbs::ReadBusyTime(run_folder, "mesher");
     findings.time.map_s = nbs::ReadBusyTime(run_folder, "voxelmap");
     nbs::AddPlanning(reporter.record(), findings.time);
-    nbs::WriteOutputs(config, reporter, findings, {motions, meshes_W});
+    if (registered) findings.registration = registered->registration;
+    nbs::WriteOutputs(config, reporter, registered, findings, {motions, meshes_W});
+    if (registered) std::cout << nbs::DescribeRegistration(registered->registration, reporter.record()) << "\n";
     return 0;
-  } catch (const nbs::ConfigError& error) {
-    std::cerr << "nbs-reporter: " << error.what() << "\n";
-    return 1;
   } catch (const std::exception& error) {
     std::cerr << "nbs-reporter: " << error.what() << "\n";
-    return 2;
+    return dynamic_cast<const nbs::ConfigError*>(&error) != nullptr ? 1 : 2;
   }
 }
 

@@ -55,10 +55,11 @@ void WriteModel(const MeshReplica& mesh, const fs::path& file) {
   WriteMeshPly(file, mesh.MakeCompactMesh(), extra);
 }
 
-void WriteOutputs(const RunConfig& config, const ReporterNode& reporter, const Findings& findings,
-                  const RunTraces& traces) {
+void WriteOutputs(const RunConfig& config, const ReporterNode& reporter,
+                  const std::optional<RegisteredModel>& registered, const Findings& findings, const RunTraces& traces) {
   const double wall_s = CalcWallTime(config.folder);
-  WriteModel(reporter.mesh(), config.folder / "model.ply");
+  WriteModel(registered ? registered->mesh : reporter.mesh(), config.folder / "model.ply");
+  if (registered) WriteModel(reporter.mesh(), config.folder / "model_as_streamed.ply");
   WriteOctomap(reporter.voxels(), config.folder / "voxels.ot");
   WriteText(config.folder / "report.json", MakeReportJson(config, reporter.record(), findings, wall_s));
   const RunPictures pictures = DrawRun(config, reporter.record(), reporter.voxels(), traces);

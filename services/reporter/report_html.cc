@@ -70,7 +70,24 @@ std::string Base64(const std::string& bytes) {
 
 std::string Percent(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
 
-std::string MakeSummary(const RunConfig& config, const RunRecord& record, double wall_s) {
+std::string FormatCoverage(const Evaluation& evaluation) {
+  return fmt::format("{} of the surface, {} of what the profiler can see", Percent(evaluation.coverage),
+                     Percent(evaluation.observable_coverage));
+}
+
+std::string FormatError(const Evaluation& evaluation) { return fmt::format("{:.3f} mm", 1e3 * evaluation.rmse_m); }
+
+std::string FormatRegistration(const RunRecord& record, const Registration& registration) {
+  std::string text = fmt::format("after the run; moved by {:.2f} mm in the mean, {:.2f} mm at most",
+                                 1e3 * registration.mean_correction_m, 1e3 * registration.largest_correction_m);
+  if (const auto streamed = FindStreamedMesh(record); streamed && streamed->evaluation) {
+    text += fmt::format(". As streamed, like the table of scans: {}, RMS error {}",
+                        FormatCoverage(*streamed->evaluation), FormatError(*streamed->evaluation));
+  }
+  return text;
+}
+
+std::string MakeSummary(const RunConfig& config, const RunRecord& record, const Findings& findings, double wall_s) {
   std::string rows;
   const auto row = [&](const std::string& name, const std::string& value) {
     rows += fmt::format("<tr><td class='text'>{}</td><td class='text'>{}</td></tr>\n", name, EscapeHtml(value));
@@ -81,16 +98,16 @@ std::string MakeSummary(const RunConfig& config, const RunRecord& record, double
   row("cell, seed, version", fmt::format("{}, {}, {}", config.cell.name, config.seed, config.version));
   row("ended because", record.detail.empty() ? record.end_reason : record.end_reason + ": " + record.detail);
   row("scans, path length", fmt::format("{}, {:.2f} m", record.scans.size(), CalcPathLength(record)));
-  if (!record.scans.empty()) {
-    const ScanRecord& last = record.scans.back();
-    row("mesh completeness (eq. 3)",
-        fmt::format("{}; rim {:.2f} m; {} triangles", Percent(last.completeness), last.rim_length_m, last.triangles));
-    if (last.evaluation) {
-      row("coverage", fmt::format("{} of the surface, {} of what the profiler can see",
-                                  Percent(last.evaluation->coverage), Percent(last.evaluation->observable_coverage)));
-      row("RMS error of the vertices", fmt::format("{:.3f} mm", 1e3 * last.evaluation->rmse_m));
+  if (const auto mesh = FindFinalMesh(record, findings)) {
+    row("mesh completeness (eq. 3)", fmt::format("{}; rim {:.2f} m; {} triangles", Percent(mesh->completeness),
+                                                 mesh->rim_length_m, mesh->triangles));
+    if (mesh->evaluation) {
+      row("coverage", FormatCoverage(*mesh->evaluation));
+      row("RMS error of the vertices", FormatError(*mesh->evaluation));
     }
   }
+  if (findings.registration)
+    row("scans registered with each other", FormatRegistration(record, *findings.registration));
   if (const auto mean_s = CalcMeanSelection(record)) row("mean selection", fmt::format("{:.3f} s", *mean_s));
   row("wall time", fmt::format("{:.1f} s", wall_s));
   row("refused measurements", fmt::format("{}", record.refused_measurements));
@@ -218,7 +235,7 @@ std::string MakeReportHtml(const RunConfig& config, const RunRecord& record, con
                      "</title><style>" + kStyle + "</style></head><body>\n<h1>Scan of " +
                      EscapeHtml(config.object.empty() ? "a real object" : config.object) + "</h1>\n";
   if (record.failed) html += "<p class='bad'>The run failed: " + EscapeHtml(record.detail) + "</p>\n";
-  html += MakeSummary(config, record, wall_s);
+  html += MakeSummary(config, record, findings, wall_s);
   if (!pictures.sides.empty()) {
     html += "<h2>The mesh from four sides; red: its border</h2>\n" + MakePictures("sides", pictures.sides);
     html += "<h2>The scans in their order, where the middle beam went over the surface</h2>\n" +

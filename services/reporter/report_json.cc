@@ -92,14 +92,29 @@ ordered_json MakeMotionPlans(const std::vector<double>& times_s) {
   return {{"count", times_s.size()}, {"median_ms", quantile_ms(0.5)}, {"p95_ms", quantile_ms(0.95)}};
 }
 
+/// The figures of a mesh, keys as at the top of the report.
+void AddMesh(const std::optional<FinalMesh>& mesh, ordered_json& json) {
+  const Evaluation* evaluation = mesh && mesh->evaluation ? &*mesh->evaluation : nullptr;
+  json["completeness"] = mesh ? ordered_json(mesh->completeness) : ordered_json(nullptr);
+  json["coverage"] = evaluation ? ordered_json(evaluation->coverage) : ordered_json(nullptr);
+  json["observable_coverage"] = evaluation ? ordered_json(evaluation->observable_coverage) : ordered_json(nullptr);
+  json["rmse_mm"] = evaluation ? ordered_json(1e3 * evaluation->rmse_m) : ordered_json(nullptr);
+  json["rim_length_m"] = mesh ? ordered_json(mesh->rim_length_m) : ordered_json(nullptr);
+  json["triangles"] = mesh ? ordered_json(mesh->triangles) : ordered_json(nullptr);
+}
+
+ordered_json MakeRegistration(const RunRecord& record, const Findings& findings) {
+  if (!findings.registration) return nullptr;
+  ordered_json json;
+  json["mean_correction_mm"] = 1e3 * findings.registration->mean_correction_m;
+  json["largest_correction_mm"] = 1e3 * findings.registration->largest_correction_m;
+  AddMesh(FindStreamedMesh(record), json["as_streamed"]);
+  return json;
+}
+
 }  // namespace
 
 std::string MakeReportJson(const RunConfig& config, const RunRecord& record, const Findings& findings, double wall_s) {
-  const ScanRecord* last = record.scans.empty() ? nullptr : &record.scans.back();
-  const Evaluation* evaluation = last != nullptr && last->evaluation ? &*last->evaluation : nullptr;
-  const auto from_last = [&](auto member) {
-    return last != nullptr ? ordered_json(last->*member) : ordered_json(nullptr);
-  };
   ordered_json json;
   json["method"] = config.method;
   json["gain_rule"] = FindMethod(config.method).by_gain ? ordered_json(config.gain) : ordered_json(nullptr);
@@ -113,12 +128,8 @@ std::string MakeReportJson(const RunConfig& config, const RunRecord& record, con
   json["path_length_m"] = CalcPathLength(record);
   json["mean_selection_s"] = OrNull(CalcMeanSelection(record));
   json["motion_plans"] = MakeMotionPlans(CollectPlanTimes(record));
-  json["completeness"] = from_last(&ScanRecord::completeness);
-  json["coverage"] = evaluation ? ordered_json(evaluation->coverage) : ordered_json(nullptr);
-  json["observable_coverage"] = evaluation ? ordered_json(evaluation->observable_coverage) : ordered_json(nullptr);
-  json["rmse_mm"] = evaluation ? ordered_json(1e3 * evaluation->rmse_m) : ordered_json(nullptr);
-  json["rim_length_m"] = from_last(&ScanRecord::rim_length_m);
-  json["triangles"] = from_last(&ScanRecord::triangles);
+  AddMesh(FindFinalMesh(record, findings), json);
+  json["registration"] = MakeRegistration(record, findings);
   json["wall_s"] = wall_s;
   json["refused_measurements"] = record.refused_measurements;
   json["robot_time_s"] =

@@ -39,4 +39,16 @@ std::optional<double> CalcMeanSelection(const RunRecord& record) {
   return sum_s / count;
 }
 
+std::optional<FinalMesh> FindStreamedMesh(const RunRecord& record) {
+  if (record.scans.empty()) return std::nullopt;
+  const ScanRecord& last = record.scans.back();
+  return FinalMesh{last.completeness, last.rim_length_m, last.triangles, last.evaluation};
+}
+
+std::optional<FinalMesh> FindFinalMesh(const RunRecord& record, const Findings& findings) {
+  if (!findings.registration) return FindStreamedMesh(record);
+  const MeshScan& figures = findings.registration->figures;
+  return FinalMesh{figures.completeness, figures.rim_length_m, figures.triangles, findings.registration->evaluation};
+}
+
 }  // namespace nbs

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/geometry/mesh_delta.h"
 #include "common/planning/scan_path.h"
 #include "sim/motion_audit.h"
 #include "sim/remainder.h"
@@ -62,12 +63,35 @@ struct TimeSplit {
   double planning_s = 0.0;       ///< Whether the robot can drive the candidates, and how.
 };
 
-/// What the truth says about a run that is over; empty where no truth is known.
+/// What the registration of all scans with each other has made of a run.
+struct Registration {
+  MeshScan figures;                      ///< Of the mesh that was made anew.
+  std::optional<Evaluation> evaluation;  ///< Of the same mesh.
+  double mean_correction_m = 0.0;        ///< By how much stripes were moved, in the mean
+  double largest_correction_m = 0.0;     ///< and at most.
+};
+
+/// What is known about a run when it is over, most of it from the truth; empty where no truth is known.
 struct Findings {
   std::optional<Remainder> remainder;  ///< What the last mesh lacks; none without a scan.
   std::optional<MotionAudit> motion;   ///< What the executed motions did.
   TimeSplit time;
+  std::optional<Registration> registration;  ///< None: the cell does not ask for it, or nothing was scanned.
 };
+
+/// The mesh that a run leaves, in figures.
+struct FinalMesh {
+  double completeness = 0.0;
+  double rim_length_m = 0.0;
+  int64_t triangles = 0;
+  std::optional<Evaluation> evaluation;
+};
+
+/// The mesh after the last scan as it was streamed; nullopt without a scan.
+std::optional<FinalMesh> FindStreamedMesh(const RunRecord& record);
+
+/// The mesh of the registered scans, if they have been registered, otherwise the one that was streamed.
+std::optional<FinalMesh> FindFinalMesh(const RunRecord& record, const Findings& findings);
 
 /// Length of all scan paths, metres (without the motions between them).
 double CalcPathLength(const RunRecord& record);

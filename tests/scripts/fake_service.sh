@@ -22,6 +22,10 @@ if [[ $name == prepare ]]; then
   echo "name: fake" >"$out/run.yaml"
   exit 0
 fi
+if [[ $name == remesh ]]; then
+  [[ ! -e $run/unregistrable ]] || { echo 'a history is damaged' >&2 && exit 2; }
+  exit 0
+fi
 if [[ -n $offline ]]; then
   [[ ! -e $run/unwritable ]] || { echo 'no space left' >&2 && exit 2; }
   printf '{\n  "end_reason": "%s",\n  "end_detail": "Said \\"so\\", fully.",\n  "n_scans": 3\n}\n' "$(cat "$run/finish" 2>/dev/null || echo interrupted)" >"$run/report.json"

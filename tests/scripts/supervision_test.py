@@ -35,7 +35,7 @@ class ScriptTest(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
         binaries = self.folder / "build" / "bin"
         binaries.mkdir(parents=True)
-        for name in SERVICES + ["prepare"]:
+        for name in SERVICES + ["prepare", "remesh"]:
             (binaries / f"nbs-{name}").symlink_to(SOURCE / "tests/scripts/fake_service.sh")
         self.environment = dict(os.environ, NBS_READY="1", NBS_BUILD_DIR=str(self.folder / "build"), NBS_STATE_DIR=str(self.folder / "state"),
                                 NBS_RUNS_DIR=str(self.folder / "runs"))
@@ -157,6 +157,15 @@ class Scan(ScriptTest):
         (run / "finish").touch()
         _, errors = process.communicate(timeout=30)
         self.assertEqual((2, "the report could not be written: no space left\n"), (process.returncode, errors))
+        self.assert_nothing_runs(run)
+
+    def test_whose_scans_cannot_be_registered_has_failed_but_leaves_its_report(self):
+        process, run = self.start_scan()
+        (run / "unregistrable").touch()
+        (run / "finish").write_text("scan_limit")
+        _, errors = process.communicate(timeout=30)
+        self.assertEqual((2, "the scans could not be registered with each other: a history is damaged\n"), (process.returncode, errors))
+        self.assertTrue((run / "report.json").exists())
         self.assert_nothing_runs(run)
 
     def test_reporter_that_fails_is_named(self):

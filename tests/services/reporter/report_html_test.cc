@@ -32,6 +32,22 @@ TEST(ReportHtml, EveryVerdictIsExplained) {
   for (int v = 0; v < kVerdicts; ++v) EXPECT_THAT(html, HasSubstr(std::string(ToString(static_cast<Verdict>(v)))));
 }
 
+TEST(ReportHtml, RegistrationIsToldWithWhatWasStreamed) {
+  RunRecord record;
+  record.scans.resize(1);
+  record.scans[0].evaluation = Evaluation{0.91, 0.92, 0.00123};
+  Findings findings;
+  EXPECT_THAT(MakeReportHtml(RunConfig{}, record, findings, 1.0, {}), Not(HasSubstr("registered")));
+  findings.registration.emplace();
+  findings.registration->largest_correction_m = 1.2e-3;
+  findings.registration->evaluation = Evaluation{0.95, 0.96, 0.00098};
+  const std::string html = MakeReportHtml(RunConfig{}, record, findings, 1.0, {});
+  EXPECT_THAT(html, HasSubstr("95.00 % of the surface, 96.00 % of what the profiler can see"));
+  EXPECT_THAT(html, HasSubstr("0.980 mm"));
+  EXPECT_THAT(html, HasSubstr("1.20 mm at most"));
+  EXPECT_THAT(html, HasSubstr("91.00 % of the surface, 92.00 % of what the profiler can see, RMS error 1.230 mm"));
+}
+
 TEST(ReportHtml, FaultsOfMotionsAreMarkedAsBadAndNamedWithTheirPlace) {
   Findings findings;
   findings.motion.emplace();

@@ -112,5 +112,28 @@ TEST(ReportJson, SaysWhatTheTruthSaysOrNull) {
     EXPECT_TRUE(without.at(key).is_null());
 }
 
+TEST(ReportJson, FiguresAreThoseOfTheRegisteredMeshBesideThoseThatWereStreamed) {
+  Findings findings;
+  findings.registration.emplace();
+  findings.registration->mean_correction_m = 0.6e-3;
+  findings.registration->largest_correction_m = 1.2e-3;
+  findings.registration->evaluation = Evaluation{0.8, 0.9, 0.0001};
+  findings.registration->figures.completeness = 0.99;
+  findings.registration->figures.triangles = 77;
+  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), findings, 12.5));
+  EXPECT_EQ(json.at("coverage"), 0.8);
+  EXPECT_EQ(json.at("observable_coverage"), 0.9);
+  EXPECT_EQ(json.at("rmse_mm"), 0.1);
+  EXPECT_EQ(json.at("completeness"), 0.99);
+  EXPECT_EQ(json.at("triangles"), 77);
+  const auto& registration = json.at("registration");
+  EXPECT_EQ(registration.at("mean_correction_mm"), 0.6);
+  EXPECT_EQ(registration.at("largest_correction_mm"), 1.2);
+  EXPECT_EQ(registration.at("as_streamed").at("coverage"), 0.75);
+  EXPECT_EQ(registration.at("as_streamed").at("rmse_mm"), 0.2);
+  EXPECT_EQ(registration.at("as_streamed").at("completeness"), MakeRecord().scans.back().completeness);
+  EXPECT_TRUE(nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), {}, 12.5)).at("registration").is_null());
+}
+
 }  // namespace
 }  // namespace nbs
