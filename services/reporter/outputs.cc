@@ -58,11 +58,12 @@ void WriteModel(const MeshReplica& mesh, const fs::path& file) {
 void WriteOutputs(const RunConfig& config, const ReporterNode& reporter,
                   const std::optional<RegisteredModel>& registered, const Findings& findings, const RunTraces& traces) {
   const double wall_s = CalcWallTime(config.folder);
-  WriteModel(registered ? registered->mesh : reporter.mesh(), config.folder / "model.ply");
+  const MeshReplica& model = registered ? registered->mesh : reporter.mesh();
+  WriteModel(model, config.folder / "model.ply");
   if (registered) WriteModel(reporter.mesh(), config.folder / "model_as_streamed.ply");
   WriteOctomap(reporter.voxels(), config.folder / "voxels.ot");
   WriteText(config.folder / "report.json", MakeReportJson(config, reporter.record(), findings, wall_s));
-  const RunPictures pictures = DrawRun(config, reporter.record(), reporter.voxels(), traces);
+  const RunPictures pictures = DrawRun(config, reporter.record(), model.MakeCompactMesh(), reporter.voxels(), traces);
   WriteText(config.folder / "report.html", MakeReportHtml(config, reporter.record(), findings, wall_s, pictures));
 }
 

@@ -112,14 +112,14 @@ Picture DrawVoxels(const VoxelGrid& voxels, bool cut) {
 
 }  // namespace
 
-RunPictures DrawRun(const RunConfig& config, const RunRecord& record, const VoxelGrid& voxels,
-                    const RunTraces& traces) {
+RunPictures DrawRun(const RunConfig& config, const RunRecord& record, const TriangleMesh& model_W,
+                    const VoxelGrid& voxels, const RunTraces& traces) {
   RunPictures pictures;
   pictures.voxels.push_back(Encode("occupied", DrawVoxels(voxels, false)));
   pictures.voxels.push_back(
       Encode("cut open: occupied (orange), unknown (violet); the rest is free", DrawVoxels(voxels, true)));
-  if (traces.meshes_W.empty() || traces.meshes_W.back().triangles.empty()) return pictures;
-  DrawSides(config, record, traces.meshes_W.back(), pictures);
+  if (model_W.triangles.empty()) return pictures;
+  DrawSides(config, record, model_W, pictures);
   pictures.scans = DrawScans(config, record, traces);
   return pictures;
 }

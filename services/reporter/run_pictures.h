@@ -20,6 +20,9 @@ struct RunPictures {
 
 /// Draws the pictures of a run. Without a mesh there are only those of the voxel space; scans without a motion have no
 /// picture of the robot.
-RunPictures DrawRun(const RunConfig& config, const RunRecord& record, const VoxelGrid& voxels, const RunTraces& traces);
+///
+/// @param model_W  The mesh that the run leaves.
+RunPictures DrawRun(const RunConfig& config, const RunRecord& record, const TriangleMesh& model_W,
+                    const VoxelGrid& voxels, const RunTraces& traces);
 
 }  // namespace nbs

@@ -22,17 +22,19 @@ class PicturesOfARun : public ::testing::Test {
     scan.path = {MakeLookPose({-0.1, -0.4, 0}, {0, 1, 0}, {1, 0, 0}),
                  MakeLookPose({0.1, -0.4, 0}, {0, 1, 0}, {1, 0, 0})};
     record_.scans.push_back(scan);
-    traces_.meshes_W.push_back(MakeSphere(0.1f, 4));
+    model_W_ = MakeSphere(0.1f, 4);
+    traces_.meshes_W.push_back(model_W_);
     ExecutedMotion motion;
     motion.states.push_back({0, 0, true, false, scan.path.X_WS_start, {}});
     traces_.motions.push_back(motion);
   }
   static GridShape MakeGrid() { return {Eigen::Vector3d::Constant(-0.15), 0.05, Eigen::Vector3i::Constant(6)}; }
 
-  RunPictures Draw() const { return DrawRun(config_, record_, voxels_, traces_); }
+  RunPictures Draw() const { return DrawRun(config_, record_, model_W_, voxels_, traces_); }
 
   RunConfig config_;
   RunRecord record_;
+  TriangleMesh model_W_;
   VoxelGrid voxels_;
   RunTraces traces_;
 };
@@ -53,11 +55,19 @@ TEST_F(PicturesOfARun, RobotIsDrawnForEachScanThatWasExecuted) {
 }
 
 TEST_F(PicturesOfARun, WithoutAMeshThereIsTheVoxelSpace) {
-  traces_.meshes_W = {TriangleMesh{}};
+  model_W_ = {};
+  traces_.meshes_W = {model_W_};
   const RunPictures pictures = Draw();
   EXPECT_TRUE(pictures.sides.empty());
   EXPECT_TRUE(pictures.scans.empty());
   EXPECT_EQ(pictures.voxels.size(), 2u);
+}
+
+TEST_F(PicturesOfARun, SidesShowTheModelThatTheRunLeaves) {
+  const RunPictures before = Draw();
+  model_W_ = MakeSphere(0.05f, 4);  // As if it had been made anew after the run.
+  EXPECT_NE(Draw().sides[0].png, before.sides[0].png);
+  EXPECT_EQ(Draw().scans[0].png, before.scans[0].png);
 }
 
 TEST_F(PicturesOfARun, SamePicturesEveryTime) {
