@@ -43,6 +43,7 @@ class CoverageOracle {
   double observable_share() const { return observable_share_; }
 
   const std::vector<SurfaceSample>& samples() const { return samples_; }
+  const TriangleScene& truth_W() const { return truth_W_; }
 
   /// For each sample 1 if it has a partner in the reconstruction, else 0.
   std::vector<uint8_t> FindCovered(const TriangleMesh& mesh_W) const;

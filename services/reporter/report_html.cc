@@ -87,6 +87,11 @@ std::string FormatRegistration(const RunRecord& record, const Registration& regi
   return text;
 }
 
+std::string FormatShape(const Shape& shape) {
+  return fmt::format("laid onto the true object, {:.2f} mm and {:.2f} mrad: {}, RMS error {}", 1e3 * shape.moved_m,
+                     1e3 * shape.turned_rad, FormatCoverage(shape.evaluation), FormatError(shape.evaluation));
+}
+
 std::string MakeSummary(const RunConfig& config, const RunRecord& record, const Findings& findings, double wall_s) {
   std::string rows;
   const auto row = [&](const std::string& name, const std::string& value) {
@@ -108,6 +113,7 @@ std::string MakeSummary(const RunConfig& config, const RunRecord& record, const 
   }
   if (findings.registration)
     row("scans registered with each other", FormatRegistration(record, *findings.registration));
+  if (findings.shape) row("as a shape", FormatShape(*findings.shape));
   if (const auto mean_s = CalcMeanSelection(record)) row("mean selection", fmt::format("{:.3f} s", *mean_s));
   row("wall time", fmt::format("{:.1f} s", wall_s));
   row("refused measurements", fmt::format("{}", record.refused_measurements));

@@ -112,6 +112,15 @@ ordered_json MakeRegistration(const RunRecord& record, const Findings& findings)
   return json;
 }
 
+ordered_json MakeShape(const std::optional<Shape>& shape) {
+  if (!shape) return nullptr;
+  return {{"moved_mm", 1e3 * shape->moved_m},
+          {"turned_mrad", 1e3 * shape->turned_rad},
+          {"coverage", shape->evaluation.coverage},
+          {"observable_coverage", shape->evaluation.observable_coverage},
+          {"rmse_mm", 1e3 * shape->evaluation.rmse_m}};
+}
+
 }  // namespace
 
 std::string MakeReportJson(const RunConfig& config, const RunRecord& record, const Findings& findings, double wall_s) {
@@ -130,6 +139,7 @@ std::string MakeReportJson(const RunConfig& config, const RunRecord& record, con
   json["motion_plans"] = MakeMotionPlans(CollectPlanTimes(record));
   AddMesh(FindFinalMesh(record, findings), json);
   json["registration"] = MakeRegistration(record, findings);
+  json["shape"] = MakeShape(findings.shape);
   json["wall_s"] = wall_s;
   json["refused_measurements"] = record.refused_measurements;
   json["robot_time_s"] =

@@ -71,12 +71,21 @@ struct Registration {
   double largest_correction_m = 0.0;     ///< and at most.
 };
 
+/// How good the final mesh is as a shape: laid onto the true object by the rigid motion that fits best
+/// (sim/rigid_fit.h), because an arm's absolute error moves all of it alike.
+struct Shape {
+  Evaluation evaluation;    ///< Of the mesh so moved.
+  double moved_m = 0.0;     ///< By how much the middle of the object was moved,
+  double turned_rad = 0.0;  ///< and how far turned.
+};
+
 /// What is known about a run when it is over, most of it from the truth; empty where no truth is known.
 struct Findings {
   std::optional<Remainder> remainder;  ///< What the last mesh lacks; none without a scan.
   std::optional<MotionAudit> motion;   ///< What the executed motions did.
   TimeSplit time;
   std::optional<Registration> registration;  ///< None: the cell does not ask for it, or nothing was scanned.
+  std::optional<Shape> shape;                ///< None: no arm, or no truth, or nothing was scanned.
 };
 
 /// The mesh that a run leaves, in figures.

@@ -2,6 +2,7 @@
 
 #include "sim/coverage.h"
 #include "sim/load_object.h"
+#include "sim/rigid_fit.h"
 
 namespace nbs {
 namespace {
@@ -11,6 +12,18 @@ CoverageSettings MakeCoverageSettings(const CellConfig& cell) {
   settings.profiler = cell.profiler;
   settings.table_z_m = cell.table_z_m;
   return settings;
+}
+
+Evaluation Rate(const CoverageOracle& oracle, const TriangleMesh& mesh_W) {
+  const Coverage rated = oracle.Evaluate(mesh_W);
+  return {rated.coverage, rated.observable_coverage, rated.rmse_m};
+}
+
+Shape RateShape(const CoverageOracle& oracle, const TriangleMesh& mesh_W) {
+  const Pose X_WM = FitRigid(mesh_W, oracle.truth_W());
+  const Eigen::Vector3d middle_W = oracle.truth_W().box_W().center();
+  return {Rate(oracle, MoveMesh(mesh_W, X_WM)), (X_WM * middle_W - middle_W).norm(),
+          CalcAngleBetween(X_WM, Pose::Identity())};
 }
 
 }  // namespace
@@ -31,10 +44,7 @@ Truth::~Truth() = default;
 
 ReporterNode::Evaluator Truth::MakeEvaluator() const {
   if (!object_) return {};
-  return [object = object_](const TriangleMesh& mesh_W) {
-    const Coverage rated = object->oracle.Evaluate(mesh_W);
-    return Evaluation{rated.coverage, rated.observable_coverage, rated.rmse_m};
-  };
+  return [object = object_](const TriangleMesh& mesh_W) { return Rate(object->oracle, mesh_W); };
 }
 
 Findings Truth::Find(const TriangleMesh& mesh_W, std::span<const ExecutedMotion> motions) const {
@@ -45,6 +55,7 @@ Findings Truth::Find(const TriangleMesh& mesh_W, std::span<const ExecutedMotion>
   findings.time.motion_s = auditor.audit().move_s;
   findings.time.scan_s = auditor.audit().scan_s;
   if (!object_ || mesh_W.triangles.empty()) return findings;
+  if (config_.cell.arm) findings.shape = RateShape(object_->oracle, mesh_W);
   RemainderSettings settings;
   settings.profiler = config_.cell.profiler;
   settings.table_z_m = config_.cell.table_z_m;

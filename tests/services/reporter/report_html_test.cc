@@ -84,5 +84,17 @@ TEST(SvgPlot, AnEmptyAxisIsRefused) {
   EXPECT_THROW((void)MakeSvgPlot({"x", "y", 1.0, 1.0, 0.0, 1.0}, {}), std::invalid_argument);
 }
 
+TEST(ReportHtml, TheShapeIsToldWhereAnArmMovedAll) {
+  RunRecord record;
+  record.scans.resize(1);
+  Findings findings;
+  EXPECT_THAT(MakeReportHtml(RunConfig{}, record, findings, 1.0, {}), Not(HasSubstr("as a shape")));
+  findings.shape = Shape{Evaluation{0.95, 0.96, 0.00015}, 0.0018, 0.002};
+  EXPECT_THAT(
+      MakeReportHtml(RunConfig{}, record, findings, 1.0, {}),
+      HasSubstr(
+          "1.80 mm and 2.00 mrad: 95.00 % of the surface, 96.00 % of what the profiler can see, RMS error 0.150 mm"));
+}
+
 }  // namespace
 }  // namespace nbs

@@ -135,5 +135,18 @@ TEST(ReportJson, FiguresAreThoseOfTheRegisteredMeshBesideThoseThatWereStreamed) 
   EXPECT_TRUE(nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), {}, 12.5)).at("registration").is_null());
 }
 
+TEST(ReportJson, TheShapeStandsBesideTheModelWhereItLies) {
+  Findings findings;
+  findings.shape = Shape{Evaluation{0.8, 0.9, 0.00015}, 0.0018, 0.002};
+  const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), findings, 12.5));
+  EXPECT_EQ(json.at("coverage"), 0.75);
+  EXPECT_EQ(json.at("shape").at("coverage"), 0.8);
+  EXPECT_EQ(json.at("shape").at("observable_coverage"), 0.9);
+  EXPECT_DOUBLE_EQ(json.at("shape").at("rmse_mm"), 0.15);
+  EXPECT_DOUBLE_EQ(json.at("shape").at("moved_mm"), 1.8);
+  EXPECT_DOUBLE_EQ(json.at("shape").at("turned_mrad"), 2.0);
+  EXPECT_TRUE(nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), {}, 12.5)).at("shape").is_null());
+}
+
 }  // namespace
 }  // namespace nbs
