@@ -53,8 +53,18 @@ def add_object(page, experiments, name):
     add_figure_3(page, experiments, name)
     page.heading("After the last scan", 3)
     page.table(*tables.make_quality_table(experiments, name))
+    add_arm_error(page, experiments, name)
     add_motions(page, experiments, name)
     add_rims(page, experiments, name)
+
+
+def add_arm_error(page, experiments, name):
+    header, rows = tables.make_arm_error_table(experiments, name)
+    if rows:
+        page.heading("What the arm's error costs", 3)
+        page.text("The model as it was streamed; with all scans registered with each other, about their mean, after the run (all other tables rate this one, but for coverage scan by scan); "
+                  "and laid onto the true object by the best rigid motion, since what moves all of the model alike says nothing about its shape.")
+        page.table(header, rows)
 
 
 def add_motions(page, experiments, name):

@@ -186,6 +186,23 @@ def make_motion_table(experiments, object_name):
     return header, rows
 
 
+def make_arm_error_table(experiments, object_name):
+    """What the arm's error costs: the model as it was streamed, with the scans registered with each other, and as a shape. Without rows if there was no arm."""
+    header = ["method", "seeds"] + [f"{model}: {figure}" for model in ("as streamed", "registered", "as a shape") for figure in ("of what can be seen %", "RMS error mm")]
+    header += ["scans moved mm", "shape moved mm"]
+    rows = []
+    for method in experiments.methods:
+        reports = [run.report for run in experiments.of(object_name, method) if run.report.get("registration") and run.report.get("shape")]
+        if not reports:
+            continue
+        models = [[report["registration"]["as_streamed"] for report in reports], reports, [report["shape"] for report in reports]]
+        rows.append([method, len(reports)]
+                    + [mean_and_spread([factor * model[key] for model in group], digits) for group in models for key, factor, digits in (("observable_coverage", 100, 2), ("rmse_mm", 1, 3))]
+                    + [mean_and_spread([report["registration"]["mean_correction_mm"] for report in reports], 2),
+                       mean_and_spread([report["shape"]["moved_mm"] for report in reports], 2)])
+    return header, rows
+
+
 def make_verdict_table(experiments, object_name):
     """What became of the candidates after the last scan of the runs, in the mean: why they were not scanned."""
     methods = [method for method in experiments.methods if experiments.of(object_name, method)]

@@ -170,6 +170,19 @@ class Page(unittest.TestCase):
         self.assertIn("| method | rim m | occluded | seam |\n|---|---|---|---|\n| BH/IG | 1.00 | 0.50 | 0.25 |", page)
         self.assertIn("| method | missing % | occluded | open |\n|---|---|---|---|\n| BH/IG | 3.00 | 2.00 | 1.00 |", page)
 
+    def test_an_arms_error_is_told_where_scans_were_registered(self):
+        def make_model(coverage, rmse_mm):
+            return {"observable_coverage": coverage, "rmse_mm": rmse_mm}
+
+        for seed in (1, 2):
+            self.add_run("putto", "BH-IG", seed, make_report([make_scan(0.3), make_scan(0.97)], registration={"mean_correction_mm": 0.25 * seed, "as_streamed": make_model(0.9, 1.25)},
+                                                             shape=dict(make_model(0.99, 0.125), moved_mm=1.5)))
+        self.add_run("putto", "S-IG", 1, make_report([make_scan(0.3), make_scan(0.97)], registration=None, shape=None))
+        header, rows = tables.make_arm_error_table(runs.read_experiments(self.folder), "putto")
+        self.assertEqual([["BH/IG", 2]], [row[:2] for row in rows])
+        self.assertEqual(["90.00 ± 0.00", "1.250 ± 0.000", "97.00 ± 0.00", "0.100 ± 0.000", "99.00 ± 0.00", "0.125 ± 0.000", "0.38 ± 0.18", "1.50 ± 0.00"], rows[0][2:])
+        self.assertEqual(len(header), len(rows[0]))
+
     def test_faults_of_motions_are_summed_over_the_seeds(self):
         for seed, contacts in ((1, 2), (2, 3)):
             faults = {"contact_object": {"count": contacts, "first": None}, "speed": {"count": 0, "first": None}}
