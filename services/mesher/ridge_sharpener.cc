@@ -192,11 +192,14 @@ bool RidgeSharpener::HasRoom(const Proposal& proposal, bool moves) const {
       moves && proposal.distance_m < settings_.least_spacing_m ? settings_.least_spacing_m : settings_.spacing_m;
   const float off_ridge = moves ? 0.0f : settings_.room_m;
   bool room = true;
-  vertices_.ForEachNear(t.p_W, settings_.spacing_m, [&](uint32_t other) {
+  vertices_.ForEachNear(t.p_W, std::max(settings_.spacing_m, settings_.depth_m), [&](uint32_t other) {
     const Vertex& w = vertices_[other];
     if ((other == id && moves) || w.state != Vertex::State::kReal || FacesAway(w, t)) return;
     const bool is_on = w.ridge == Vertex::Ridge::kOn || w.ridge == Vertex::Ridge::kLoose;
-    if ((w.p_W - t.p_W).norm() < (is_on ? on_ridge : off_ridge)) room = false;
+    const Eigen::Vector3f d = w.p_W - t.p_W;
+    const float height = d.dot(t.normal_W);
+    if (d.norm() < (is_on ? on_ridge : off_ridge)) room = false;
+    if (!moves && d.norm() < settings_.depth_m && (d - height * t.normal_W).norm() < settings_.aside_m) room = false;
   });
   return room;
 }

@@ -25,6 +25,9 @@ struct RidgeSettings {
   float least_spacing_m =
       0.0006f;             ///< The same for a vertex that is nearer to the ridge than this: it has no place beside it.
   float room_m = 0.0008f;  ///< Between a vertex that is founded on a ridge and any off it.
+  /// None is founded with another so deep below it and no further aside: given up again, both would lie at one place.
+  float depth_m = 0.002f;
+  float aside_m = 0.0003f;
   float step_m = 0.0008f;  ///< Along a ridge, between the places where one may be founded.
   RoofSettings roof;
   RidgeEvidenceSettings evidence;
