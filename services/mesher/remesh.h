@@ -12,13 +12,11 @@ struct Registered {
   Outbox mesh;     ///< One MeshDelta with everything, and the MeshScan of the last scan.
 };
 
-/// The stripes up to the last that closes a scan; what an interrupted scan has left is dropped.
-std::vector<Stripe> KeepWholeScans(std::vector<Stripe> stripes);
-
 /// Registers the scans with each other (MakeRegisteredStripes) and folds their stripes into a new mesh. The same
 /// stripes give the same bits.
 ///
-/// @param stripes  Of whole scans, in the order in which they came.
+/// @param stripes  At least one, in the order in which they came. A last scan that was cut short counts as closed.
+/// @throws std::invalid_argument if there are none.
 Registered Remesh(const Profiler& profiler, std::vector<Stripe> stripes);
 
 }  // namespace nbs

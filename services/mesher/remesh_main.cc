@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
     const nbs::RunConfig config = nbs::ReadRunConfig(run);
     fs::remove_all(run / "registered");
     if (!AsksForRegistration(config.cell)) return 0;
-    std::vector<nbs::Stripe> stripes = nbs::KeepWholeScans(nbs::ReadAll<nbs::Stripe>(run));
+    std::vector<nbs::Stripe> stripes = nbs::ReadAll<nbs::Stripe>(run);
     if (!stripes.empty()) WriteRegistered(config, run, nbs::Remesh(config.cell.profiler, std::move(stripes)));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;

@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 #include <cmath>
+#include <stdexcept>
 
 #include "services/mesher/mesher_node.h"
 #include "tests/services/mesher/synthetic_scan.h"
@@ -35,13 +36,15 @@ double CalcRoughness(const MeshReplica& replica) {
   return std::sqrt(off.squaredNorm() / static_cast<double>(count));
 }
 
-TEST(Remesh, DropsWhatAnInterruptedScanHasLeft) {
-  std::vector<Stripe> stripes(5);
-  stripes[2].end_of_scan = true;
-  EXPECT_EQ(KeepWholeScans(stripes).size(), 3u);
-  stripes.resize(2);
-  EXPECT_TRUE(KeepWholeScans(stripes).empty());
-  EXPECT_TRUE(KeepWholeScans({}).empty());
+TEST(Remesh, AScanThatWasCutShortCountsAsClosed) {
+  std::vector<Stripe> whole = MakeScans(), cut = whole;
+  ASSERT_TRUE(cut.back().end_of_scan);
+  cut.pop_back();
+  const Registered a = Remesh({}, whole), b = Remesh({}, cut);
+  EXPECT_EQ(std::get<MeshDelta>(a.mesh[0]).triangles, std::get<MeshDelta>(b.mesh[0]).triangles);
+  EXPECT_TRUE(std::get<MeshDelta>(b.mesh[0]).end_of_scan);
+  EXPECT_EQ(b.stripes.size(), cut.size());
+  EXPECT_THROW(Remesh({}, {}), std::invalid_argument);
 }
 
 TEST(Remesh, GivesTheMeshThatTheMovedStripesGive) {
