@@ -1,5 +1,5 @@
 // nbs-remesh: registers the scans of a run that is over with each other, where its cell asks for that, and meshes their
-// stripes anew. RUN/registered becomes a run folder of its own: the moved stripes, one MeshDelta and one MeshScan.
+// stripes anew. RUN/registered/streams then has the moved stripes, one MeshDelta and one MeshScan.
 
 #include <CLI/CLI.hpp>
 #include <iostream>
