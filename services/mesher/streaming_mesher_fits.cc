@@ -9,12 +9,13 @@ namespace nbs {
 namespace {
 
 constexpr float kNormalUnit = 32767.0f;
+constexpr int kMost = 0xffff;
 
 }  // namespace
 
 void StreamingMesher::MarkForFit(uint32_t id) {
   Vertex& v = vertices_[id];
-  ++v.fresh;
+  v.fresh = static_cast<uint16_t>(std::min(v.fresh + 1, kMost));
   if (v.fit_due || static_cast<float>(v.fresh) < settings_.refit_share * static_cast<float>(v.support)) return;
   v.fit_due = true;
   fit_queue_.Push(id, now_);
@@ -103,11 +104,10 @@ bool StreamingMesher::HasRoomFor(uint32_t id, const SurfaceFit& fit) const {
 }
 
 void StreamingMesher::SetSurface(uint32_t id, const SurfaceFit& fit) {
-  constexpr float kMost = 65535.0f;
   Vertex& v = vertices_[id];
-  v.support = fit.measurements;
+  v.support = static_cast<uint16_t>(std::min(fit.measurements, kMost));
   v.normal_W = fit.normal_W;
-  v.curvature_per_m = static_cast<uint16_t>(std::min(fit.curvature_per_m, kMost));
+  v.curvature_per_m = static_cast<uint16_t>(std::min(fit.curvature_per_m, static_cast<float>(kMost)));
   vertices_.Move(id, fit.p_W);
   // At a ridge so sharp that each side is only seen without the other, both are smooth and end there.
   if (fit.curvature_per_m >= settings_.ridges.ridge_curvature_per_m || !triangulation_.IsSurrounded(id))

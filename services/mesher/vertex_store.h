@@ -29,15 +29,15 @@ struct Vertex {
   /// Unit, towards the side that was seen. While pending, the sum of the unit directions from which it was measured.
   Eigen::Vector3f normal_W = Eigen::Vector3f::Zero();
   State state = State::kFree;
-  Ridge ridge = Ridge::kNone;
+  Ridge ridge : 4 = Ridge::kNone;
+  bool fit_due : 1 = false;      ///< Measurements came near since the surface was fitted.
+  bool star_due : 1 = false;     ///< The vertex or its surroundings changed since the star was made.
+  bool publish_due : 1 = false;  ///< Something changed since it was published.
+  bool published : 1 = false;
   uint16_t curvature_per_m = 0;  ///< Of the fitted surface.
-  int32_t support = 0;           ///< Measurements that carried the last fit,
-  int32_t fresh = 0;             ///< and those that came near since.
-  bool fit_due = false;          ///< Measurements came near since the surface was fitted.
-  bool star_due = false;         ///< The vertex or its surroundings changed since the star was made.
-  bool publish_due = false;      ///< Something changed since it was published.
-  bool published = false;
-  uint16_t measurements = 0;  ///< Its own: those to which it was the nearest vertex; 65535 at most.
+  uint16_t support = 0;          ///< Measurements that carried the last fit,
+  uint16_t fresh = 0;            ///< and those that came near since; 65535 of either at most.
+  uint16_t measurements = 0;     ///< Its own: those to which it was the nearest vertex; 65535 at most.
   /// Normal at which the stars around it were made, in 1/32767.
   std::array<int16_t, 3> star_normal_W{};
   /// Fixed point through which the vertex moves along its normal, metres.
@@ -49,6 +49,7 @@ struct Vertex {
   uint16_t first_scan = 0;
   uint16_t last_scan = 0;
 };
+static_assert(sizeof(Vertex) <= 92, "most of the mesher's memory is vertices");
 
 /// The vertices by number, and by place. Numbers are reused, last freed first.
 class VertexStore {
