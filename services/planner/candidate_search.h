@@ -25,9 +25,8 @@ struct SearchInput {
 ///
 /// - First: the cell's first path.
 /// - Boundary: beside the boundaries of the newest scan, added to the stack; under GainRule::kSurface over the
-/// predicted
-///   surface, where the stack is made anew because the prediction has changed everywhere. A method without gain gets
-///   one path a boundary, and forgets those whose middle has been seen meanwhile.
+///   predicted surface, where the stack is made anew because the prediction has changed everywhere. A method without
+///   gain gets one path a boundary, and forgets those whose middle has been seen meanwhile.
 /// - Hole: the boundary candidates are dropped and the holes detected once; under GainRule::kSurface in every round,
 ///   beside the predicted surface.
 /// - Sphere: all viewpoints, once.

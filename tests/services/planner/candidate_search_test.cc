@@ -29,7 +29,7 @@ struct Round {
   void Run(CandidateSearcher& searcher, PlanMode mode, int scan = 0) {
     const Eigen::Vector3d down = -Eigen::Vector3d::UnitZ(), along = Eigen::Vector3d::UnitY();
     const ScanPath first{MakeLookPose({0.0, -0.1, 0.385}, down, along), MakeLookPose({0.0, 0.1, 0.385}, down, along)};
-    searcher.Update(mode, {ball.mesh, ball.voxels, prediction, scan, first}, selection);
+    searcher.Update(mode, {ball.mesh, ball.voxels, prediction, scan, first, {}}, selection);
     const RatingContext context{
         FindGainRule(config.gain).value(), FindMethod(config.method).by_gain, 0.025, kSixtyFourth, 1, config.cell};
     const CandidateRating rating(context, ball.voxels, prediction);
