@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/geometry/directions.h"
+#include "sim/mesh_measures.h"
 
 namespace nbs {
 namespace {
@@ -53,20 +54,14 @@ void CoverageOracle::FindObservable() {
 }
 
 double CoverageOracle::CalcRmse(const TriangleMesh& mesh_W) const {
-  std::vector<uint8_t> used(mesh_W.vertices_W.size(), 0);
-  for (const auto& triangle : mesh_W.triangles) {
-    for (uint32_t v : triangle) used[v] = 1;
-  }
+  const std::vector<Vector3d> used_W = CollectUsedVertices(mesh_W);
   double sum = 0.0;
-  int64_t count = 0;
-  for (size_t v = 0; v < used.size(); ++v) {
-    if (used[v] == 0) continue;
-    const auto closest = truth_W_.FindClosest(mesh_W.vertices_W[v].cast<double>(), kFar_m);
+  for (const Vector3d& p_W : used_W) {
+    const auto closest = truth_W_.FindClosest(p_W, kFar_m);
     const double distance = closest ? closest->distance_m : kFar_m;
     sum += distance * distance;
-    ++count;
   }
-  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
+  return used_W.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(used_W.size()));
 }
 
 std::vector<uint8_t> CoverageOracle::FindCovered(const TriangleMesh& mesh_W) const {

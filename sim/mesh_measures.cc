@@ -63,6 +63,18 @@ Eigen::AlignedBox3d CalcBoundingBox(const TriangleMesh& mesh_W) {
   return box;
 }
 
+std::vector<Eigen::Vector3d> CollectUsedVertices(const TriangleMesh& mesh_W) {
+  std::vector<uint8_t> is_used(mesh_W.vertices_W.size(), 0);
+  for (const auto& triangle : mesh_W.triangles) {
+    for (const uint32_t v : triangle) is_used[v] = 1;
+  }
+  std::vector<Eigen::Vector3d> used_W;
+  for (size_t v = 0; v < is_used.size(); ++v) {
+    if (is_used[v] != 0) used_W.push_back(mesh_W.vertices_W[v].cast<double>());
+  }
+  return used_W;
+}
+
 std::vector<Eigen::Vector3f> CalcVertexNormals(const TriangleMesh& mesh_W) {
   std::vector<Vector3d> sums(mesh_W.vertices_W.size(), Vector3d::Zero());
   for (size_t t = 0; t < mesh_W.triangles.size(); ++t) {

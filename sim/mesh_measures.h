@@ -11,6 +11,9 @@ namespace nbs {
 /// Smallest axis-aligned box around all vertices, metres; empty for a mesh without vertices.
 Eigen::AlignedBox3d CalcBoundingBox(const TriangleMesh& mesh_W);
 
+/// The vertices that a triangle uses, in their order, metres.
+std::vector<Eigen::Vector3d> CollectUsedVertices(const TriangleMesh& mesh_W);
+
 /// Unit normals at the vertices: mean of the triangles' normals weighted by area. A vertex without triangle gets +z.
 std::vector<Eigen::Vector3f> CalcVertexNormals(const TriangleMesh& mesh_W);
 

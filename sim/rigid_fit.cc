@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "sim/mesh_measures.h"
+
 namespace nbs {
 namespace {
 
@@ -18,14 +20,7 @@ constexpr double kSettled_m = 1e-7;
 constexpr double kHold = 1e-6;
 
 std::vector<Vector3d> TakeVertices(const TriangleMesh& mesh) {
-  std::vector<uint8_t> used(mesh.vertices_W.size(), 0);
-  for (const auto& triangle : mesh.triangles) {
-    for (const uint32_t v : triangle) used[v] = 1;
-  }
-  std::vector<Vector3d> all;
-  for (size_t v = 0; v < used.size(); ++v) {
-    if (used[v] != 0) all.push_back(mesh.vertices_W[v].cast<double>());
-  }
+  const std::vector<Vector3d> all = CollectUsedVertices(mesh);
   const size_t step = all.size() / kMostVertices + 1;
   std::vector<Vector3d> taken;
   for (size_t i = 0; i < all.size(); i += step) taken.push_back(all[i]);

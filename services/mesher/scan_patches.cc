@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "services/mesher/stripe_check.h"
+
 namespace nbs {
 namespace {
 
@@ -33,7 +35,7 @@ CellIndex FindCell(const Eigen::Vector3d& p_W, double cell_m) {
 
 void AddStripe(const Profiler& profiler, const std::vector<Eigen::Vector3d>& beams_S, const Stripe& stripe,
                double along, double cell_m, Cells& cells) {
-  for (size_t beam = 0; beam < std::min(beams_S.size(), stripe.ranges_m.size()); ++beam) {
+  for (size_t beam = 0; beam < beams_S.size(); ++beam) {
     const double range_m = stripe.ranges_m[beam];
     if (!(range_m > 0.0) || !(range_m <= 2.0 * profiler.max_depth_m)) continue;
     const Eigen::Vector3d beam_W = stripe.X_WS.linear() * beams_S[beam];
@@ -113,7 +115,7 @@ std::vector<ScanPatch> MakeScanPatches(const Profiler& profiler, std::span<const
   const std::vector<Eigen::Vector3d> beams_S = CalcBeamDirections_S(profiler);
   std::vector<Cells> scans(last.size());
   for (const Stripe& stripe : stripes) {
-    if (stripe.end_of_scan) continue;
+    if (stripe.end_of_scan || !IsMeasurable(profiler, stripe)) continue;
     const auto scan = static_cast<size_t>(stripe.scan);
     AddStripe(profiler, beams_S, stripe, CalcAlong(stripe, last[scan]), settings.cell_m, scans[scan]);
   }

@@ -39,8 +39,8 @@ std::vector<int32_t> FindLastIndices(std::span<const Stripe> stripes);
 /// its cell lie in the mean, not on the plane through its surroundings: stripes see what faces them with more points
 /// than what is oblique, which would draw the plane towards the sensor (0.2 mm in the registration of the statue).
 ///
-/// @param stripes  Ranges that are not finite, not above 0 or beyond twice the depth of field are passed over, as the
-///                 mesher does.
+/// @param stripes  Those that are not measurable (stripe_check.h) are passed over as the mesher does, and so are ranges
+///                 that are not finite, not above 0 or beyond twice the depth of field.
 std::vector<ScanPatch> MakeScanPatches(const Profiler& profiler, std::span<const Stripe> stripes,
                                        const ScanPatchSettings& settings = {});
 

@@ -5,51 +5,15 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <unordered_map>
+#include <utility>
+
+#include "services/mesher/brick_grid.h"
 
 namespace nbs {
 namespace {
 
 constexpr int kUnknowns = 6;  // Of a scan: middle, slope.
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
-
-/// Finds patches by place.
-class PatchGrid {
- public:
-  /// @param p_W  Where the patches are now.
-  PatchGrid(std::span<const Eigen::Vector3d> p_W, double cell_m) : cell_m_(cell_m) {
-    for (uint32_t i = 0; i < p_W.size(); ++i) cells_[MakeKey(FindCell(p_W[i]))].push_back(i);
-  }
-
-  /// Visits the patches in the cell of p_W and those around it, always in the same order.
-  template <typename Visit>
-  void ForEachAround(const Eigen::Vector3d& p_W, Visit&& visit) const {
-    const Eigen::Vector3i at = FindCell(p_W);
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dz = -1; dz <= 1; ++dz) {
-          const auto found = cells_.find(MakeKey(at + Eigen::Vector3i(dx, dy, dz)));
-          if (found != cells_.end()) std::ranges::for_each(found->second, visit);
-        }
-      }
-    }
-  }
-
- private:
-  Eigen::Vector3i FindCell(const Eigen::Vector3d& p_W) const {
-    return (p_W / cell_m_).array().floor().matrix().cast<int>();
-  }
-
-  static uint64_t MakeKey(const Eigen::Vector3i& cell) {
-    constexpr int kMiddle = 1 << 20;  // 21 bits an axis: 5 km at 5 mm.
-    uint64_t key = 0;
-    for (int axis = 0; axis < 3; ++axis) key = key << 21 | (static_cast<uint64_t>(cell[axis] + kMiddle) & 0x1fffff);
-    return key;
-  }
-
-  double cell_m_;
-  std::unordered_map<uint64_t, std::vector<uint32_t>> cells_;
-};
 
 /// The normal equations of all pairs.
 struct Equations {
@@ -88,7 +52,7 @@ class Registration {
     moved_W_.clear();
     for (const ScanPatch& patch : patches_)
       moved_W_.push_back(patch.p_W + corrections_[static_cast<size_t>(patch.scan)].CalcOffset(patch.along));
-    const PatchGrid grid(moved_W_, settings_.reach_m);
+    const BrickGrid grid = SortIn();
     for (uint32_t i = 0; i < patches_.size(); ++i) {
       FindPartners(grid, i);
       for (const Partner& partner : partners_) {
@@ -97,17 +61,32 @@ class Registration {
     }
   }
 
+  /// The patches by where they are now: each cell has a list of them.
+  BrickGrid SortIn() {
+    BrickGrid grid(static_cast<float>(settings_.reach_m));
+    next_in_cell_.clear();
+    for (const Eigen::Vector3d& p_W : moved_W_) {
+      int32_t& head = grid.Touch(p_W.cast<float>());
+      next_in_cell_.push_back(std::exchange(head, static_cast<int32_t>(next_in_cell_.size())));
+    }
+    return grid;
+  }
+
   /// For each scan its patch that is nearest to patch i, looks the same way and is within reach.
-  void FindPartners(const PatchGrid& grid, uint32_t i) {
+  void FindPartners(const BrickGrid& grid, uint32_t i) {
     const double reach_squared = settings_.reach_m * settings_.reach_m;
     partners_.assign(corrections_.size(), {false, 0, reach_squared});
-    grid.ForEachAround(moved_W_[i], [&](uint32_t j) {
-      if (patches_[j].scan == patches_[i].scan) return;
-      if (patches_[j].normal_W.dot(patches_[i].normal_W) < settings_.least_cosine) return;
-      Partner& partner = partners_[static_cast<size_t>(patches_[j].scan)];
-      const double squared = (moved_W_[j] - moved_W_[i]).squaredNorm();
-      if (squared < partner.squared_m2) partner = {true, j, squared};
+    grid.ForEachCell(moved_W_[i].cast<float>(), static_cast<float>(settings_.reach_m), [&](int32_t head) {
+      for (int32_t j = head; j != BrickGrid::kNone; j = next_in_cell_[j]) Consider(i, static_cast<uint32_t>(j));
     });
+  }
+
+  void Consider(uint32_t i, uint32_t j) {
+    if (patches_[j].scan == patches_[i].scan) return;
+    if (patches_[j].normal_W.dot(patches_[i].normal_W) < settings_.least_cosine) return;
+    Partner& partner = partners_[static_cast<size_t>(patches_[j].scan)];
+    const double squared = (moved_W_[j] - moved_W_[i]).squaredNorm();
+    if (squared < partner.squared_m2) partner = {true, j, squared};
   }
 
   /// Adds w (n . (p_i + t_i - p_j - t_j))^2 with Tukey's weight at where the two are now.
@@ -142,7 +121,8 @@ class Registration {
   const ScanRegistrationSettings& settings_;
   std::vector<ScanCorrection> corrections_;
   std::vector<Eigen::Vector3d> moved_W_;  // The patches, corrected as far as known.
-  std::vector<Partner> partners_;         // Of one patch, by scan.
+  std::vector<int32_t> next_in_cell_;
+  std::vector<Partner> partners_;  // Of one patch, by scan.
 };
 
 }  // namespace

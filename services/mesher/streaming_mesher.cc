@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/mesher/stripe_check.h"
+
 namespace nbs {
 namespace {
 
@@ -22,10 +24,7 @@ StreamingMesher::StreamingMesher(const Profiler& profiler, const StreamingMesher
 }
 
 bool StreamingMesher::IsAcceptable(const Stripe& stripe) const {
-  if (!stripe.end_of_scan) {
-    if (static_cast<int>(stripe.ranges_m.size()) != profiler_.points || !IsRigid(stripe.X_WS)) return false;
-    if (stripe.X_WS.translation().cwiseAbs().maxCoeff() > 0.5 * BrickGrid::kReach_m) return false;
-  }
+  if (!IsMeasurable(profiler_, stripe)) return false;
   if (stripe.scan < 0 || stripe.scan > kLastScan || stripe.index < 0) return false;
   if (!scan_begun_) return true;
   if (stripe.scan != scan_.scan) return stripe.scan > scan_.scan && stripe.scan - scan_.scan <= kMostScansSkipped;

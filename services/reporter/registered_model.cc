@@ -45,9 +45,10 @@ std::string DescribeRegistration(const Registration& registration, const RunReco
                                  1e3 * registration.mean_correction_m, 1e3 * registration.largest_correction_m);
   if (registration.evaluation && !record.scans.empty() && record.scans.back().evaluation) {
     const Evaluation &after = *registration.evaluation, &before = *record.scans.back().evaluation;
-    text += fmt::format("; coverage {:.2f} % (as streamed {:.2f} %), of what can be seen {:.2f} % ({:.2f} %)",
-                        100.0 * after.coverage, 100.0 * before.coverage, 100.0 * after.observable_coverage,
-                        100.0 * before.observable_coverage);
+    text += fmt::format(
+        "; coverage {:.2f} % (as streamed, up to scan {}: {:.2f} %), of what can be seen {:.2f} % ({:.2f} %)",
+        100.0 * after.coverage, record.scans.size(), 100.0 * before.coverage, 100.0 * after.observable_coverage,
+        100.0 * before.observable_coverage);
   }
   return text;
 }

@@ -190,6 +190,19 @@ TEST_F(RegisteredStripes, DamagedRangesMakeNoPatches) {
   for (size_t i = 0; i < a.size(); ++i) ASSERT_EQ(a[i].p_W, b[i].p_W);
 }
 
+TEST_F(RegisteredStripes, StripesThatTheMesherRefusesMakeNoPatches) {
+  std::vector<Stripe> damaged = stripes_, without = stripes_;
+  for (size_t i = 0; i + 3 < stripes_.size(); i += 40) {
+    damaged[i].X_WS.translation().x() = std::numeric_limits<double>::quiet_NaN();
+    damaged[i + 1].X_WS.translation().x() = 1e9;
+    damaged[i + 2].ranges_m.resize(7);
+    for (size_t k = i; k < i + 3; ++k) std::ranges::fill(without[k].ranges_m, 0.0f);
+  }
+  const auto a = MakeScanPatches(profiler_, damaged), b = MakeScanPatches(profiler_, without);
+  ASSERT_EQ(a.size(), b.size());
+  for (size_t i = 0; i < a.size(); ++i) ASSERT_EQ(a[i].p_W, b[i].p_W);
+}
+
 TEST_F(RegisteredStripes, PatchesLieOnTheSurfaceAndFaceTheSensor) {
   for (Stripe& stripe : stripes_)
     if (!stripe.end_of_scan) stripe.X_WS.translation() -= CalcTrueOffset(stripe.scan);

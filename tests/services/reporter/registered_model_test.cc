@@ -75,7 +75,8 @@ TEST(RegisteredModel, IsToldBesideWhatWasStreamed) {
   record.scans.resize(1);
   record.scans[0].evaluation = Evaluation{0.94, 0.96, 0.001};
   EXPECT_THAT(DescribeRegistration(registration, record),
-              testing::HasSubstr("coverage 95.00 % (as streamed 94.00 %), of what can be seen 97.00 % (96.00 %)"));
+              testing::HasSubstr(
+                  "coverage 95.00 % (as streamed, up to scan 1: 94.00 %), of what can be seen 97.00 % (96.00 %)"));
 }
 
 }  // namespace
