@@ -7,7 +7,7 @@
 namespace nbs {
 namespace {
 
-constexpr float kViewUnit = 32767.0f, kPlaceUnit = 65535.0f;
+constexpr float kViewUnit = 32767.0f;
 
 /// Number of the axis direction nearest to v: 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z.
 int CalcSide(const Eigen::Vector3f& v) {
@@ -68,23 +68,14 @@ void MeasurementMap::Close(Cluster& cluster, int rank) {
   cluster.capacity = 0;
 }
 
-/// Of the cell, the one with the least coordinates.
-Eigen::Vector3f MeasurementMap::CalcCorner(const Cluster& cluster, int bit) const {
-  return cell_m_ * (cluster.origin + Eigen::Vector3i(bit >> 4, bit >> 2 & 3, bit & 3)).cast<float>();
-}
-
-Eigen::Vector3f MeasurementMap::CalcPoint(const Eigen::Vector3f& corner_W, const Entry& entry) const {
-  return corner_W + (cell_m_ / kPlaceUnit) * Eigen::Vector3f(entry.place[0], entry.place[1], entry.place[2]);
-}
-
 void MeasurementMap::Add(const Measurement& m, const Eigen::Vector3f& corner_W, Entry& entry) const {
   const float sigma_mm = 1e3f * m.sigma_m;
   const float weight = 1.0f / (sigma_mm * sigma_mm);
   const float share = weight / (entry.weight + weight), view_share = 1.0f / static_cast<float>(entry.measurements + 1);
-  const Eigen::Vector3f place = (kPlaceUnit * inverse_cell_) * (m.p_W - corner_W);
+  const Eigen::Vector3f place = (kPlaces * inverse_cell_) * (m.p_W - corner_W);
   for (int i = 0; i < 3; ++i) {
     const float mean_place = entry.place[i] + share * (place[i] - entry.place[i]);
-    entry.place[i] = static_cast<uint16_t>(std::lround(std::clamp(mean_place, 0.0f, kPlaceUnit)));
+    entry.place[i] = static_cast<uint16_t>(std::lround(std::clamp(mean_place, 0.0f, kPlaces)));
     const float mean_view = entry.view_W[i] + view_share * (kViewUnit * m.view_W[i] - entry.view_W[i]);
     entry.view_W[i] = static_cast<int16_t>(std::lround(mean_view));
   }
@@ -123,7 +114,7 @@ void MeasurementMap::Gather(const Eigen::Vector3f& p_W, float radius_m, const Ei
     for (const uint64_t occupied : cluster.occupied) {
       for (uint64_t cells = occupied & box; cells != 0; cells &= cells - 1) {
         const Entry& entry = first[std::popcount(occupied & ((cells & -cells) - 1))];
-        const Eigen::Vector3f sample_p_W = CalcPoint(CalcCorner(cluster, std::countr_zero(cells)), entry);
+        const Eigen::Vector3f sample_p_W = CalcPoint(cluster, std::countr_zero(cells), entry);
         if ((sample_p_W - p_W).squaredNorm() > squared_radius) continue;
         const Eigen::Vector3f view_W(entry.view_W[0], entry.view_W[1], entry.view_W[2]);  // In 1/32767.
         const float along = view_W.dot(side_W);
@@ -144,7 +135,7 @@ void MeasurementMap::Forget(const Eigen::Vector3f& p_W, float radius_m) {
     for (int side = 0; side < kSides; ++side) {
       for (uint64_t cells = cluster.occupied[side] & box; cells != 0; cells &= cells - 1) {
         const int bit = std::countr_zero(cells), rank = CalcRank(cluster, side, bit);
-        if ((CalcPoint(CalcCorner(cluster, bit), cluster.entries[rank]) - p_W).norm() > radius_m) continue;
+        if ((CalcPoint(cluster, bit, cluster.entries[rank]) - p_W).norm() > radius_m) continue;
         Close(cluster, rank);
         cluster.occupied[side] &= ~(uint64_t{1} << bit);
       }

@@ -34,7 +34,8 @@ struct Sample {
 class MeasurementMap {
  public:
   /// @param cell_m  Edge of a cell, metres.
-  explicit MeasurementMap(float cell_m) : cell_m_(cell_m), inverse_cell_(1.0f / cell_m), clusters_at_(kEdge * cell_m) {}
+  explicit MeasurementMap(float cell_m)
+      : cell_m_(cell_m), inverse_cell_(1.0f / cell_m), place_m_(cell_m / kPlaces), clusters_at_(kEdge * cell_m) {}
 
   /// @param m       Finite, within BrickGrid::kReach_m.
   /// @param side_W  The side of the surface that was measured: its normal if it is known, otherwise the view.
@@ -53,6 +54,7 @@ class MeasurementMap {
  private:
   static constexpr int kEdge = 4, kSides = 6;
   static constexpr int kMostMeasurements = 0xffff;
+  static constexpr float kPlaces = 65535.0f;
 
   // Packed: most of the mesher's memory but the vertices is samples.
   struct [[gnu::packed]] Entry {
@@ -74,12 +76,17 @@ class MeasurementMap {
   static int CalcRank(const Cluster& cluster, int side, int bit);
   static void Open(Cluster& cluster, int rank);
   static void Close(Cluster& cluster, int rank);
-  Eigen::Vector3f CalcCorner(const Cluster& cluster, int bit) const;
-  Eigen::Vector3f CalcPoint(const Eigen::Vector3f& corner_W, const Entry& entry) const;
+  /// The corner of a cell with the least coordinates.
+  Eigen::Vector3f CalcCorner(const Cluster& cluster, int bit) const {
+    return cell_m_ * (cluster.origin + Eigen::Vector3i(bit >> 4, bit >> 2 & 3, bit & 3)).cast<float>();
+  }
+  Eigen::Vector3f CalcPoint(const Cluster& cluster, int bit, const Entry& entry) const {
+    return CalcCorner(cluster, bit) + place_m_ * Eigen::Vector3f(entry.place[0], entry.place[1], entry.place[2]);
+  }
   void Add(const Measurement& m, const Eigen::Vector3f& corner_W, Entry& entry) const;
   uint64_t MakeMask(const Cluster& cluster, const Eigen::Vector3f& p_W, float radius_m) const;
 
-  float cell_m_, inverse_cell_;
+  float cell_m_, inverse_cell_, place_m_;
   BrickGrid clusters_at_;
   PagedVector<Cluster> clusters_;
   std::vector<int32_t> free_;  // Clusters without a place; they hold nothing.

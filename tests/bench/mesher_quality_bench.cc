@@ -56,8 +56,12 @@ const Scanned& Scan(const std::string& name, const Scanning& scanning) {
 }
 
 PeerMesh MeshByStreaming(const Scanned& scanned) {
-  const MesherRun run = RunMesher(scanned.profiler, scanned.stripes, true);
-  return {run.replica.MakeCompactMesh(), 0.0, run.seconds};
+  MesherRun run = RunMesher(scanned.profiler, scanned.stripes, true);
+  PeerMesh mesh{run.replica.MakeCompactMesh(), 0.0, run.seconds};
+  const int64_t heap_bytes = CountHeapBytes();
+  run.node.reset();
+  mesh.heap_bytes = heap_bytes - CountHeapBytes();
+  return mesh;
 }
 
 PeerMesh MeshByGreedy(const Scanned& scanned) {
@@ -110,6 +114,9 @@ void QualityBench(benchmark::State& state, const std::string& name, const Scanni
   state.counters["ridge_mm"] = 1e3 * quality.ridge_gap_m;
   state.counters["edge_mm"] = 1e3 * quality.mean_edge_m;
   state.counters["longest_mm"] = 1e3 * quality.longest_edge_m;
+  if (mesh.heap_bytes > 0)
+    state.counters["bytes_per_vertex"] =
+        static_cast<double>(mesh.heap_bytes) / static_cast<double>(mesh.mesh_W.vertices_W.size());
 }
 
 void Register(const std::string& name, const Scanning& scanning, bool with_peers) {

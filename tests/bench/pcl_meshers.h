@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "common/geometry/triangle_mesh.h"
@@ -11,7 +12,8 @@ namespace nbs::bench {
 struct PeerMesh {
   TriangleMesh mesh_W;
   double normal_seconds = 0.0;
-  double seconds = 0.0;  ///< Normals included.
+  double seconds = 0.0;    ///< Normals included.
+  int64_t heap_bytes = 0;  ///< That the mesher held at the end; 0 if unknown.
 };
 
 struct PeerSettings {
