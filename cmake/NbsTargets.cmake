@@ -25,12 +25,17 @@ function(nbs_library name)
   target_link_libraries(${name} PUBLIC nbs_options Eigen3::Eigen ${ARG_LINK} PRIVATE ${ARG_LINK_PRIVATE})
 endfunction()
 
-# nbs_executable(NAME SOURCES main.cc LINK x y): an executable, all of which land in <build>/bin.
+# nbs_executable(NAME SOURCES main.cc LINK x y): an executable, all of which land in <build>/bin. The target nbs_programs is all whose name
+# begins with nbs-: what the scripts run.
+add_custom_target(nbs_programs)
 function(nbs_executable name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE nbs_options ${ARG_LINK})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  if(name MATCHES "^nbs-")
+    add_dependencies(nbs_programs ${name})
+  endif()
 endfunction()
 
 # nbs_test(NAME SOURCES a_test.cc LINK x y): one GoogleTest executable, registered as one test of the suite.

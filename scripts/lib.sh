@@ -5,8 +5,6 @@ nbs_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # A test may point to another build; NBS_READY=1 then says that packages and build are in place.
 nbs_build=${NBS_BUILD_DIR:-$nbs_root/build/release}
 nbs_bin=$nbs_build/bin
-# What a run needs; the tests are built by scripts/test only.
-nbs_programs=(nbs-{prepare,robot,simulator,sensor,mesher,voxelmap,planner,coordinator,reporter,repair-server,compare})
 nbs_runs=${NBS_RUNS_DIR:-$nbs_root/runs}
 # What runs at the moment: ports, their locks, one file per running set.
 nbs_state=${NBS_STATE_DIR:-${TMPDIR:-/tmp}/next-best-scan-$(id -u)}
@@ -29,11 +27,11 @@ need_value() { (($2 >= 2)) || fail "option $1 needs a value (see $(basename "$0"
 # refuse_option WORD
 refuse_option() { fail "unknown option or argument \`$1\` (see $(basename "$0") --help)"; }
 
-# ready GROUP…: packages and build in place, quick and silent when they are.
+# ready GROUP…: packages and all programs in place, quick and silent when they are. The tests are built by scripts/test only.
 ready() {
   [[ -n ${NBS_READY:-} ]] && return
   "$nbs_root/scripts/setup" "$@" || exit $?
-  "$nbs_root/scripts/build" --quiet "${nbs_programs[@]}" || exit $?
+  "$nbs_root/scripts/build" --quiet nbs_programs || exit $?
 }
 
 # A folder for the state that only this user can write.
