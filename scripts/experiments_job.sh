@@ -22,13 +22,8 @@ read_method() {
 # report_says FILE KEY: a text or number at the top of a report.
 report_says() { sed -n "s/^  \"$2\": \"\{0,1\}\(.*[^\",]\)\"\{0,1\},\{0,1\}\$/\1/p" "$1" 2>/dev/null; }
 
-# run_done FOLDER: true if the run came to its end and its report is whole.
-run_done() {
-  local end
-  [[ -f $1/report.json ]] || return 1
-  end=$(report_says "$1/report.json" end_reason)
-  [[ -n $end && $end != @(interrupted|refused) && $(report_says "$1/report.json" n_scans) != @(0|) && $(tail -c 2 "$1/report.json") == '}' ]]
-}
+# run_done FOLDER: true if the run came to a good end and its report is whole.
+run_done() { [[ $(report_says "$1/report.json" failed) == false && $(tail -c 2 "$1/report.json") == '}' ]]; }
 
 # oracle_done FOLDER PATHS
 oracle_done() { [[ $(report_says "$1/oracle.json" paths) == "$2" ]]; }

@@ -146,13 +146,13 @@ report_value() {
   sed -n "s/^  \"$1\": \"\{0,1\}\(.*[^\",]\)\"\{0,1\},\{0,1\}\$/\1/p" "$nbs_run/report.json" 2>/dev/null | sed 's/\\"/"/g'
 }
 
-# has_failed: true if the report says that the run broke off: it was refused a motion, never came to a scan, or its end was never reached.
-has_failed() { [[ $(report_value end_reason) == @(refused|interrupted) || $(report_value n_scans) == 0 ]]; }
+# has_failed: true unless the report says that the run came to a good end.
+has_failed() { [[ $(report_value failed) != false ]]; }
 
 # finish_run CODE: stops the services, writes the results, says where they are, and ends the script. CODE 0 becomes 2 if the run itself failed; a run that
 # never began (CODE 1) has no results.
 finish_run() {
-  local code=$1
+  local code=$1 words
   trap '' INT TERM HUP
   stop_services
   if ((code != 1)); then
@@ -160,7 +160,8 @@ finish_run() {
     if write_report; then
       if ((code == 0)) && has_failed; then
         code=2
-        say "the run failed: $(report_value end_detail)"
+        words=$(report_value end_detail)
+        say "the run failed: ${words:-$(report_value end_reason)}"
       fi
       printf '%s\n' "run folder: $nbs_run" || true
     elif ((code == 0)); then

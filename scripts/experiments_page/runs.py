@@ -8,7 +8,6 @@ WANTED_COMPLETENESS = 0.9875  # section IV-B of the paper
 # As the coordinator (services/coordinator/run_logic.h): a complete mesh must also have stopped growing, for so many scans in a row.
 COMPLETE_GROWTH = 0.01
 SETTLED_SCANS = 2
-BROKEN_ENDS = ("interrupted", "refused")
 
 
 @dataclasses.dataclass
@@ -81,12 +80,12 @@ class Experiments:
 
 
 def read_report(folder):
-    """The report of a run that came to its end; None if it did not, or has not yet."""
+    """The report of a run that came to a good end; None if it did not, or has not yet."""
     try:
         report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    return report if report.get("end_reason") not in BROKEN_ENDS and report.get("scans") else None
+    return report if report.get("failed") is False else None
 
 
 def read_oracles(folder):

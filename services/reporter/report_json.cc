@@ -133,6 +133,7 @@ std::string MakeReportJson(const RunConfig& config, const RunRecord& record, con
   json["version"] = config.version;
   json["end_reason"] = record.end_reason;
   json["end_detail"] = record.detail;
+  json["failed"] = HasFailed(record);
   json["n_scans"] = record.scans.size();
   json["path_length_m"] = CalcPathLength(record);
   json["mean_selection_s"] = OrNull(CalcMeanSelection(record));

@@ -39,6 +39,8 @@ std::optional<double> CalcMeanSelection(const RunRecord& record) {
   return sum_s / count;
 }
 
+bool HasFailed(const RunRecord& record) { return record.failed || record.end_reason == kInterrupted; }
+
 std::optional<FinalMesh> FindStreamedMesh(const RunRecord& record) {
   if (record.scans.empty()) return std::nullopt;
   const ScanRecord& last = record.scans.back();

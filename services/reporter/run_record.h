@@ -42,10 +42,13 @@ struct ScanRecord {
   bool by_gain() const { return gain_nat > 0.0; }
 };
 
+/// The end of a run that never came to one.
+inline constexpr const char* kInterrupted = "interrupted";
+
 /// A run as far as it went.
 struct RunRecord {
   std::vector<ScanRecord> scans;  ///< Complete scans only.
-  std::string end_reason = "interrupted";
+  std::string end_reason = kInterrupted;
   std::string detail;
   bool failed = false;
   int64_t refused_measurements = 0;
@@ -87,6 +90,9 @@ struct Findings {
   std::optional<Registration> registration;  ///< None: the cell does not ask for it, or nothing was scanned.
   std::optional<Shape> shape;                ///< None: no arm, or no truth, or nothing was scanned.
 };
+
+/// True if the run says so of itself, or was interrupted.
+bool HasFailed(const RunRecord& record);
 
 /// The mesh that a run leaves, in figures.
 struct FinalMesh {

@@ -23,9 +23,9 @@ def make_scan(coverage, completeness=0.9, edges=1000, path_m=0.5, selection_s=0.
     return dict(coverage=coverage, completeness=completeness, edges=edges, path_length_m=path_m, selection_s=selection_s, verdicts={"chosen": 1, "not_tried": 3}, **others)
 
 
-def make_report(scans, end_reason="scan_limit", **others):
+def make_report(scans, end_reason="scan_limit", failed=False, **others):
     scans[0]["selection_s"] = None
-    report = dict(end_reason=end_reason, version="1", n_scans=len(scans), coverage=scans[-1]["coverage"], completeness=scans[-1]["completeness"], rmse_mm=0.1,
+    report = dict(end_reason=end_reason, failed=failed, version="1", n_scans=len(scans), coverage=scans[-1]["coverage"], completeness=scans[-1]["completeness"], rmse_mm=0.1,
                   observable_coverage=scans[-1]["coverage"], refused_measurements=0, rim_length_m=1.0, wall_s=10.0, last_verdicts={"no_gain": 2}, scans=scans)
     return dict(report, **others)
 
@@ -139,11 +139,20 @@ class Page(unittest.TestCase):
 
     def test_names_failed_runs_and_leaves_out_what_is_not_whole(self):
         self.add_run("putto", "BH-IG", 1, make_report([make_scan(0.3), make_scan(0.9)]))
-        self.add_run("putto", "BH-IG", 2, make_report([make_scan(0.3)], end_reason="interrupted"))
+        self.add_run("putto", "BH-IG", 2, make_report([make_scan(0.3)], end_reason="no_candidates", failed=True))
         (self.folder / "runs/putto/BH-IG/seed2.failed").write_text("out of | luck\n")
         page = self.make_page()
         self.assertIn("| putto | BH/IG | 2 | out of \\| luck |", page)
         self.assertEqual([1], [run.seed for run in runs.read_experiments(self.folder).runs])
+
+    def test_takes_a_run_for_done_that_the_scripts_take_for_done(self):
+        for seed, failed, cut in ((1, False, 0), (2, True, 0), (3, False, 2)):
+            self.add_run("putto", "BH-IG", seed, {})
+            place = self.folder / f"runs/putto/BH-IG/seed{seed}"
+            text = json.dumps(make_report([make_scan(0.3)], failed=failed), indent=2) + "\n"
+            (place / "report.json").write_text(text[:len(text) - cut])
+            done = subprocess.run(["bash", "-c", 'source "$1" && run_done "$2"', "bash", SOURCE / "scripts/experiments_job.sh", place]).returncode == 0
+            self.assertEqual((seed == 1, seed == 1), (done, runs.read_report(place) is not None))
 
     def test_says_when_runs_of_several_versions_are_mixed(self):
         self.add_run("putto", "BH-IG", 1, make_report([make_scan(0.3), make_scan(0.9)]))

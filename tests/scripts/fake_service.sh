@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Stands in for every executable of the project in the tests of the scripts: a service that runs until RUN/finish exists, and does what RUN/<service>.order
-# says: "exit CODE SENTENCE".
+# says: "exit CODE SENTENCE". RUN/finish names the end of the run; RUN/failed says that it failed.
 set -euo pipefail
 name=$(basename "$0")
 name=${name#nbs-}
@@ -28,7 +28,10 @@ if [[ $name == remesh ]]; then
 fi
 if [[ -n $offline ]]; then
   [[ ! -e $run/unwritable ]] || { echo 'no space left' >&2 && exit 2; }
-  printf '{\n  "end_reason": "%s",\n  "end_detail": "Said \\"so\\", fully.",\n  "n_scans": 3\n}\n' "$(cat "$run/finish" 2>/dev/null || echo interrupted)" >"$run/report.json"
+  failed=false
+  [[ -e $run/finish && ! -e $run/failed ]] || failed=true
+  printf '{\n  "end_reason": "%s",\n  "end_detail": "Said \\"so\\", fully.",\n  "failed": %s,\n  "n_scans": 3\n}\n' \
+    "$(cat "$run/finish" 2>/dev/null || echo interrupted)" "$failed" >"$run/report.json"
   exit 0
 fi
 

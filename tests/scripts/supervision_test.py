@@ -145,9 +145,10 @@ class Scan(ScriptTest):
         self.assertEqual((1, "supervisor: sensor ended with exit code 1: run.yaml:3: unknown key\n"), (process.returncode, errors))
         self.assert_nothing_runs(run)
 
-    def test_that_was_refused_a_motion_has_failed(self):
+    def test_whose_report_says_so_has_failed(self):
         process, run = self.start_scan()
-        (run / "finish").write_text("refused")
+        (run / "failed").touch()
+        (run / "finish").write_text("no_candidates")
         _, errors = process.communicate(timeout=30)
         self.assertEqual((2, 'the run failed: Said "so", fully.\n'), (process.returncode, errors))
 

@@ -6,10 +6,10 @@ import re
 import signal
 import unittest
 
-from run_testing import WholeRunTest, wait_until
+from run_testing import SOURCE, WholeRunTest, wait_until
 
 RUN_FILES = ["run.yaml", "bus.lcm", "streams", "model.ply", "voxels.ot", "report.json", "report.html", "logs"]
-REPORT_KEYS = ["method", "object", "cell", "seed", "version", "end_reason", "n_scans", "path_length_m", "mean_selection_s", "completeness", "coverage",
+REPORT_KEYS = ["method", "object", "cell", "seed", "version", "end_reason", "failed", "n_scans", "path_length_m", "mean_selection_s", "completeness", "coverage",
                "observable_coverage", "rmse_mm", "rim_length_m", "triangles", "wall_s", "scans"]
 SCAN_KEYS = ["scan", "source", "gain", "path_length_m", "stripes", "selection_s", "completeness", "coverage", "candidates", "verdicts"]
 
@@ -40,7 +40,7 @@ class Scan(WholeRunTest):
         report = json.loads((self.reference / "report.json").read_text())
         self.assertEqual([], [key for key in REPORT_KEYS if key not in report])
         self.assertEqual([], [key for scan in report["scans"] for key in SCAN_KEYS if key not in scan])
-        self.assertEqual(report["n_scans"], len(report["scans"]))
+        self.assertEqual((False, report["n_scans"]), (report["failed"], len(report["scans"])))
 
     def test_scans_most_of_the_object(self):
         report = json.loads((self.reference / "report.json").read_text())
@@ -92,6 +92,16 @@ class Scan(WholeRunTest):
         self.finish(self.start_scan("dropped", NBS_SERVICE_OPTIONS="--drop 0.05 --drop-seed 7"))
         self.assert_same_model("dropped")
 
+    def test_that_sees_nothing_has_failed(self):
+        cell = self.folder / "blind.yaml"
+        text = (SOURCE / "sim/cells/free.yaml").read_text()
+        self.assertIn("first_standoff_m: 0.20\n", text)
+        cell.write_text(text.replace("first_standoff_m: 0.20\n", "first_standoff_m: 0.60\n"))
+        _, errors = self.finish(self.start_scan("blind", "--cell", cell), code=2)
+        self.assertEqual("the run failed: No scan has seen any surface: does the first path look at it?\n", errors)
+        report = json.loads((self.folder / "blind/report.json").read_text())
+        self.assertEqual((True, 1), (report["failed"], report["n_scans"]))
+
     def test_interrupted_keeps_what_was_scanned(self):
         process = self.start_scan("interrupted")
         self.wait_for_share("interrupted", 0.6)
@@ -99,6 +109,7 @@ class Scan(WholeRunTest):
         self.finish(process, code=130)
         report = json.loads((self.folder / "interrupted/report.json").read_text())
         self.assertGreaterEqual(report["n_scans"], 1)
+        self.assertTrue(report["failed"])
         self.assertGreater((self.folder / "interrupted/model.ply").stat().st_size, 1000)
         self.assert_nothing_runs()
 

@@ -27,9 +27,9 @@ RunRecord MakeRecord() {
 
 TEST(ReportJson, HoldsEveryKeyOfTheContract) {
   const auto json = nlohmann::json::parse(MakeReportJson(RunConfig{}, MakeRecord(), {}, 12.5));
-  for (const char* key :
-       {"method", "object", "cell", "seed", "version", "end_reason", "n_scans", "path_length_m", "mean_selection_s",
-        "completeness", "coverage", "observable_coverage", "rmse_mm", "rim_length_m", "triangles", "wall_s", "scans"}) {
+  for (const char* key : {"method", "object", "cell", "seed", "version", "end_reason", "failed", "n_scans",
+                          "path_length_m", "mean_selection_s", "completeness", "coverage", "observable_coverage",
+                          "rmse_mm", "rim_length_m", "triangles", "wall_s", "scans"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   for (const char* key : {"scan", "source", "gain", "path_length_m", "stripes", "selection_s", "completeness", "edges",
@@ -72,6 +72,18 @@ TEST(ReportJson, WhatDoesNotApplyIsNull) {
   }
   EXPECT_EQ(json["end_reason"], "interrupted");
   EXPECT_TRUE(json["scans"].empty());
+}
+
+TEST(ReportJson, ARunHasFailedUnlessItCameToAGoodEnd) {
+  const auto failed = [](const RunRecord& record) {
+    return nlohmann::json::parse(MakeReportJson(RunConfig{}, record, {}, 0.0)).at("failed").get<bool>();
+  };
+  RunRecord record;
+  EXPECT_TRUE(failed(record));
+  record.end_reason = "no_candidates";
+  EXPECT_FALSE(failed(record));
+  record.failed = true;
+  EXPECT_TRUE(failed(record));
 }
 
 TEST(ReportJson, SaysWhatTheTruthSaysOrNull) {
