@@ -30,7 +30,8 @@ struct Sample {
 /// What belongs to opposite sides never shares a sample: each cell keeps one for each of the six axis directions
 /// nearest to a side.
 ///
-/// Samples lie side by side in clusters of 4 x 4 x 4 cells, found by one bit each, at 18 bytes a sample.
+/// Samples lie side by side in clusters of 4 x 4 x 4 cells, found by one bit each, at 18 bytes a sample: their
+/// places are kept to a 65535th of a cell.
 class MeasurementMap {
  public:
   /// @param cell_m  Edge of a cell, metres.

@@ -12,6 +12,9 @@ namespace {
 
 using Eigen::Vector3f;
 
+/// How exactly a sample's place is kept: half of a 65535th of a cell of 2 mm, and single precision.
+constexpr float kPlace_m = 16e-9f;
+
 void Insert(const Measurement& m, MeasurementMap& map) { map.Insert(m, m.view_W); }
 
 std::vector<Sample> GatherAll(const MeasurementMap& map, const Vector3f& side_W) {
@@ -31,14 +34,29 @@ TEST(MeasurementMap, MeanIsWeightedByTheInverseVariance) {
   EXPECT_NEAR(samples[0].weight, 125.0f, 1e-2);  // 1/mm^2
 }
 
+TEST(MeasurementMap, RoundingDoesNotAddUpOverManyMeasurements) {
+  MeasurementMap map(0.002f);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  constexpr int kCount = 20'000;
+  for (uint64_t n = 0; n < kCount; ++n) {
+    const auto draw = [&](uint64_t axis) { return static_cast<float>(0.002 * CalcUniform({62, n, axis})); };
+    const Vector3f p_W(draw(0), draw(1), draw(2));
+    Insert({p_W, Vector3f::UnitZ(), 0.0001f}, map);
+    sum += p_W.cast<double>();
+  }
+  const auto samples = GatherAll(map, Vector3f::UnitZ());
+  ASSERT_EQ(samples.size(), 1u);
+  EXPECT_LT((samples[0].p_W.cast<double>() - sum / kCount).norm(), 1e-6);
+}
+
 TEST(MeasurementMap, OppositeSidesOfOneCellStayApart) {
   MeasurementMap map(0.002f);
   Insert({{0.001f, 0.001f, 0.0015f}, Vector3f::UnitZ(), 0.0001f}, map);
   Insert({{0.001f, 0.001f, 0.0005f}, -Vector3f::UnitZ(), 0.0001f}, map);
   const auto above = GatherAll(map, Vector3f::UnitZ());
   ASSERT_EQ(above.size(), 1u);
-  EXPECT_FLOAT_EQ(above[0].p_W.z(), 0.0015f);
-  EXPECT_FLOAT_EQ(GatherAll(map, -Vector3f::UnitZ())[0].p_W.z(), 0.0005f);
+  EXPECT_NEAR(above[0].p_W.z(), 0.0015f, kPlace_m);
+  EXPECT_NEAR(GatherAll(map, -Vector3f::UnitZ())[0].p_W.z(), 0.0005f, kPlace_m);
 }
 
 TEST(MeasurementMap, ViewsOfAKnownSideShareASample) {
@@ -93,7 +111,7 @@ TEST(MeasurementMap, SamplesBeyondTheRadiusAreLeftOut) {
   std::vector<Sample> samples;
   map.Gather(Vector3f::Zero(), 0.005f, Vector3f(1, 0, 1).normalized(), 0.1f, samples);
   ASSERT_EQ(samples.size(), 1u);
-  EXPECT_FLOAT_EQ(samples[0].p_W.z(), 0.0049f);
+  EXPECT_NEAR(samples[0].p_W.z(), 0.0049f, kPlace_m);
 }
 
 }  // namespace
