@@ -30,6 +30,7 @@ take_run_option() {
       [[ $2 =~ ^[0-9]+$ ]] || fail "--seed must be a whole number from 0, not \`$2\`"
       run_seed=$2
       ;;
+    --box) run_object= ;;
     --out) run_out=$2 && return ;;
     --gain | --cell | --completeness | --max-scans | --rate) ;;
     *) return 1 ;;

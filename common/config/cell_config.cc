@@ -44,6 +44,11 @@ void ReadBody(const StrictReader& reader, StrictReader::Missing missing, std::ve
   const YamlTree* list = reader.Find("sensor_body_S");
   if (!list) return;
   if (list->kind != YamlTree::Kind::kList) reader.Fail("sensor_body_S", "`sensor_body_S` must be a list of spheres");
+  if (list->items.empty()) {
+    reader.Fail("sensor_body_S",
+                "`sensor_body_S` needs at least one sphere: without a body nothing keeps the profiler "
+                "from touching the object");
+  }
   body_S.clear();
   for (const YamlTree& item : list->items) {
     const StrictReader sphere_reader = reader.Inner(item, {"center_m", "radius_m"}, missing);
@@ -129,6 +134,15 @@ void ReadFirstPath(const StrictReader& reader, CellConfig& cell) {
 }
 
 }  // namespace
+
+std::vector<Sphere> MakeDefaultSensorBody() {
+  constexpr double kRadius = 0.049;
+  std::vector<Sphere> spheres_S;
+  for (const double y : {-0.074, -0.024, 0.024, 0.074}) {
+    for (const double x : {-0.028, 0.028}) spheres_S.push_back({{x, y, -0.05}, kRadius});
+  }
+  return spheres_S;
+}
 
 CellConfig ReadCell(const std::filesystem::path& file, const YamlTree& tree, StrictReader::Missing missing) {
   const StrictReader reader(
@@ -236,7 +250,7 @@ std::string FormatCell(const CellConfig& cell, const std::string& indent) {
   add("  camera_baseline_m", FormatNumber(profiler.camera_baseline_m));
   add("  scan_speed_m_per_s", FormatNumber(profiler.scan_speed_m_per_s));
   add("X_FS", FormatPose(cell.X_FS));
-  text += indent + "sensor_body_S:" + (cell.sensor_body_S.empty() ? " []\n" : "\n");
+  text += indent + "sensor_body_S:\n";
   for (const Sphere& sphere : cell.sensor_body_S) {
     text += indent + "  - {center_m: " + FormatVector(sphere.center) + ", radius_m: " + FormatNumber(sphere.radius_m) +
             "}\n";

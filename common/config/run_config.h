@@ -35,15 +35,20 @@ struct ArmConfig {
   double pose_noise_m = 0.0;  ///< Standard deviation on each axis.
 };
 
+/// The profiler's housing where a cell does not give one: a box of 0.12 x 0.20 x 0.10 m (x, y, z of S) behind the
+/// emitter, whose front face is the emitter's plane z = 0. No sphere reaches in front of that plane; every point of the
+/// box is within 20 mm of a sphere.
+std::vector<Sphere> MakeDefaultSensorBody();
+
 /// Everything that a cell file states (sim/cells/NAME.yaml), with its defaults.
 struct CellConfig {
   std::string name = "free";
   std::string robot = "free";    ///< "free": a free-flying sensor; "arm": `arm` carries it.
   std::optional<ArmConfig> arm;  ///< Present exactly if the robot is an arm.
   Profiler profiler;
-  Pose X_FS = Pose::Identity();       ///< Hand-eye transform: sensor in flange.
-  std::vector<Sphere> sensor_body_S;  ///< Collision body of the profiler.
-  double body_margin_m = 0.02;        ///< Kept between the body and anything occupied or unknown.
+  Pose X_FS = Pose::Identity();                                 ///< Hand-eye transform: sensor in flange.
+  std::vector<Sphere> sensor_body_S = MakeDefaultSensorBody();  ///< Collision body of the profiler; never empty.
+  double body_margin_m = 0.02;  ///< Kept between the body and anything occupied or unknown.
   double move_speed_m_per_s = 0.25;
   double turn_speed_rad_per_s = 0.8;
   double resolution_m = 0.005;      ///< Edge of a voxel.

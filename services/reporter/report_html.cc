@@ -92,6 +92,8 @@ std::string FormatShape(const Shape& shape) {
                      1e3 * shape.turned_rad, FormatCoverage(shape.evaluation), FormatError(shape.evaluation));
 }
 
+std::string DescribeObject(const RunConfig& config) { return config.object.empty() ? "a real object" : config.object; }
+
 std::string MakeSummary(const RunConfig& config, const RunRecord& record, const Findings& findings, double wall_s) {
   std::string rows;
   const auto row = [&](const std::string& name, const std::string& value) {
@@ -99,7 +101,7 @@ std::string MakeSummary(const RunConfig& config, const RunRecord& record, const 
   };
   row("method", config.method);
   row("gain rule", FindMethod(config.method).by_gain ? config.gain : "none");
-  row("object", config.object);
+  row("object", DescribeObject(config));
   row("cell, seed, version", fmt::format("{}, {}, {}", config.cell.name, config.seed, config.version));
   row("ended because", record.detail.empty() ? record.end_reason : record.end_reason + ": " + record.detail);
   row("scans, path length", fmt::format("{}, {:.2f} m", record.scans.size(), CalcPathLength(record)));
@@ -239,7 +241,7 @@ std::string MakeReportHtml(const RunConfig& config, const RunRecord& record, con
                            const RunPictures& pictures) {
   std::string html = "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'><title>" + EscapeHtml(config.name) +
                      "</title><style>" + kStyle + "</style></head><body>\n<h1>Scan of " +
-                     EscapeHtml(config.object.empty() ? "a real object" : config.object) + "</h1>\n";
+                     EscapeHtml(DescribeObject(config)) + "</h1>\n";
   if (record.failed) html += "<p class='bad'>The run failed: " + EscapeHtml(record.detail) + "</p>\n";
   html += MakeSummary(config, record, findings, wall_s);
   if (!pictures.sides.empty()) {

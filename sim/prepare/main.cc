@@ -6,8 +6,11 @@
 int main(int argc, char** argv) {
   nbs::RunRequest request;
   CLI::App app("Checks what a run is asked to do and makes its folder: run.yaml, streams/, logs/.", "nbs-prepare");
-  app.add_option("--object", request.object, "statue, or a mesh file: PLY, STL or OBJ in metres")
-      ->capture_default_str();
+  CLI::Option* object = app.add_option("--object", request.object, "statue, or a mesh file: PLY, STL or OBJ in metres");
+  object->capture_default_str();
+  app.add_option("--box", request.box_m, "X,Y,Z: a real object, which fits in a box of these sizes in metres")
+      ->delimiter(',')
+      ->excludes(object);
   app.add_option("--method", request.method, "BH/IG, B/IG, B, S/IG or S")->capture_default_str();
   app.add_option("--gain", request.gain,
                  "Gain rule: surface, sum, near_surface, mean, per_second, unknown_count; default: the method's own");

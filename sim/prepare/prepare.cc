@@ -97,6 +97,24 @@ void CheckSize(const Eigen::AlignedBox3d& box_W, const std::string& object) {
   }
 }
 
+/// Where the object is, and with it the voxel space: around its mesh, or the box that a real one is said to fit in.
+Eigen::AlignedBox3d FindObjectBox(const RunRequest& request, const RunConfig& config) {
+  if (!request.box_m) {
+    const Eigen::AlignedBox3d box_W = CalcBoundingBox(LoadObject(config));
+    CheckSize(box_W, request.object);
+    return box_W;
+  }
+  const Eigen::Vector3d sizes_m(request.box_m->data());
+  if (!(sizes_m.minCoeff() > 0.0)) {
+    throw ConfigError(fmt::format("The sizes of the box must all be above 0, not {}, {} and {} m.", sizes_m.x(),
+                                  sizes_m.y(), sizes_m.z()));
+  }
+  const Eigen::Vector3d half_m(sizes_m.x() / 2.0, sizes_m.y() / 2.0, 0.0);
+  const Eigen::AlignedBox3d box_W(-half_m, half_m + sizes_m.z() * Eigen::Vector3d::UnitZ());
+  CheckSize(box_W, "in its box");
+  return box_W;
+}
+
 /// What all services together hold for a voxel (measured: services/voxelmap/README.md).
 constexpr int64_t kBytesPerVoxel = 60;
 
@@ -168,16 +186,15 @@ RunConfig PrepareRun(const RunRequest& request) {
   config.name = config.folder.filename().string();
   config.version = request.version;
   config.method = request.method;
-  config.object = request.object;
-  if (request.object != kStatueName) config.object_file = std::filesystem::absolute(request.object).lexically_normal();
+  config.object = request.box_m ? "" : request.object;
+  if (!request.box_m && request.object != kStatueName)
+    config.object_file = std::filesystem::absolute(request.object).lexically_normal();
   config.seed = request.seed;
   config.completeness = request.completeness;
   config.max_scans = request.max_scans;
   config.realtime = request.rate == "realtime";
   config.cell = ReadCellConfig(FindCellFile(request));
-  const Eigen::AlignedBox3d box_W = CalcBoundingBox(LoadObject(config));
-  CheckSize(box_W, request.object);
-  ResolvePlacement(box_W, config);
+  ResolvePlacement(FindObjectBox(request, config), config);
   CheckMemory(config.grid, request.memory_bytes);
   if (config.cell.arm) (void)ReadArm(config.cell.arm->urdf, config.cell.arm->base_link, config.cell.arm->flange_link);
   config.run_id = MakeRunId(config.name);

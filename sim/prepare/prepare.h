@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -15,6 +16,9 @@ int64_t FindMemory();
 /// What the command line of a run says, as text and numbers; nothing checked yet.
 struct RunRequest {
   std::string object = "statue";  ///< Name or mesh file.
+  /// A real object instead, of which nothing is known but that it fits in a box of these sizes along x, y and z,
+  /// metres; the middle of the box's bottom is W's origin.
+  std::optional<std::array<double, 3>> box_m;
   std::string method = "BH/IG";
   std::string gain;                 ///< Gain rule; empty: the method's own.
   std::string cell = "free";        ///< Name of a cell in cells_dir, or a cell file.

@@ -9,6 +9,7 @@
 
 #include "common/geometry/mesh_io.h"
 #include "common/runtime/error.h"
+#include "sim/load_object.h"
 #include "tests/sim/shapes.h"
 
 namespace nbs {
@@ -123,6 +124,28 @@ TEST_F(Prepare, ObjectInMillimetresIsRefusedWithTheRemedy) {
 TEST_F(Prepare, TinyObjectIsRefused) {
   WriteMeshPly(folder_ / "sphere.ply", MakeSphere(0.0005f, 3));
   EXPECT_THAT(Refusal(), HasSubstr("too small"));
+}
+
+TEST_F(Prepare, RealObjectIsABoxWithoutATruth) {
+  request_.box_m = {0.2, 0.3, 0.4};
+  const RunConfig config = PrepareRun(request_);
+  EXPECT_EQ(config.object, "");
+  EXPECT_EQ(config.object_file, "");
+  EXPECT_FALSE(HasTruth(ReadRunConfig(request_.out)));
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(config.cell.unknown_margin_m);
+  const Eigen::Vector3d low = Eigen::Vector3d(-0.1, -0.15, 0.0) - margin,
+                        high = Eigen::Vector3d(0.1, 0.15, 0.4) + margin;
+  const Eigen::Vector3d end_W = config.grid.origin_W + config.grid.resolution_m * config.grid.size.cast<double>();
+  EXPECT_TRUE(((config.grid.origin_W - low).array().abs() < config.grid.resolution_m).all());
+  EXPECT_TRUE(((end_W - high).array().abs() < config.grid.resolution_m).all());
+}
+
+TEST_F(Prepare, BoxWithoutRoomOrInMillimetresIsRefused) {
+  request_.box_m = {0.2, -0.3, 0.4};
+  EXPECT_EQ(Refusal(), "The sizes of the box must all be above 0, not 0.2, -0.3 and 0.4 m.");
+  request_.box_m = {200, 300, 400};
+  EXPECT_THAT(Refusal(), HasSubstr("looks like millimetres"));
+  EXPECT_FALSE(std::filesystem::exists(request_.out));
 }
 
 TEST_F(Prepare, MoreVoxelsThanMemoryAreRefused) {

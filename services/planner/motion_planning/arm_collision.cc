@@ -12,9 +12,8 @@ namespace {
 constexpr double kSmallestRate = 1e-9;
 
 std::vector<Capsule> MakeTool(const CellConfig& cell) {
-  const std::vector<Sphere> spheres_S = cell.sensor_body_S.empty() ? MakeDefaultSensorBody() : cell.sensor_body_S;
   std::vector<Capsule> tool_F;
-  for (const Sphere& sphere : MoveSpheres(cell.X_FS, spheres_S))
+  for (const Sphere& sphere : MoveSpheres(cell.X_FS, cell.sensor_body_S))
     tool_F.push_back({sphere.center, sphere.center, sphere.radius_m});
   return tool_F;
 }

@@ -60,13 +60,4 @@ std::vector<Sphere> MoveSpheres(const Pose& X_FS, const std::vector<Sphere>& sph
   return spheres_F;
 }
 
-std::vector<Sphere> MakeDefaultSensorBody() {
-  constexpr double kRadius = 0.049;
-  std::vector<Sphere> spheres_S;
-  for (const double y : {-0.074, -0.024, 0.024, 0.074}) {
-    for (const double x : {-0.028, 0.028}) spheres_S.push_back({{x, y, -0.05}, kRadius});
-  }
-  return spheres_S;
-}
-
 }  // namespace nbs

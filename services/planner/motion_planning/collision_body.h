@@ -44,9 +44,4 @@ class CollisionBody {
 /// The spheres, moved from the sensor's frame into the flange's.
 std::vector<Sphere> MoveSpheres(const Pose& X_FS, const std::vector<Sphere>& spheres_S);
 
-/// The profiler's housing where a cell does not give one: a box of 0.12 x 0.20 x 0.10 m (x, y, z of S) behind the
-/// emitter, whose front face is the emitter's plane z = 0. No sphere reaches in front of that plane; every point of the
-/// box is within 20 mm of a sphere.
-std::vector<Sphere> MakeDefaultSensorBody();
-
 }  // namespace nbs

@@ -16,8 +16,7 @@ constexpr double kSameTime = 1e-6;    // seconds
 constexpr double kSameLength = 1e-3;  // metres
 
 CollisionBody MakeBody(const CellConfig& cell) {
-  const std::vector<Sphere> spheres_S = cell.sensor_body_S.empty() ? MakeDefaultSensorBody() : cell.sensor_body_S;
-  return {MoveSpheres(cell.X_FS, spheres_S), cell.body_margin_m};
+  return {MoveSpheres(cell.X_FS, cell.sensor_body_S), cell.body_margin_m};
 }
 
 Eigen::AlignedBox3d MakeSearchBox(const GridShape& grid, double margin_m) {

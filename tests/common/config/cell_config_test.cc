@@ -33,6 +33,13 @@ TEST(CellConfig, AbsentKeysKeepTheirDefaults) {
   EXPECT_EQ(cell.profiler, Profiler{});
 }
 
+TEST(CellConfig, ACellWithoutABodyKeepsAHousingAndAnEmptyOneIsRefused) {
+  EXPECT_EQ(ReadCellConfig(WriteTestFile("cell.yaml", "name: a\n")).sensor_body_S.size(), 8u);
+  EXPECT_EQ(ErrorOf("name: a\nsensor_body_S: []\n"),
+            "cell.yaml:2: `sensor_body_S` needs at least one sphere: without a body nothing keeps the profiler from "
+            "touching the object");
+}
+
 TEST(CellConfig, UnknownKeyIsRefusedWithFileLineAndSuggestion) {
   EXPECT_EQ(ErrorOf("name: a\nresolutoin_m: 0.01\n"),
             "cell.yaml:2: unknown key `resolutoin_m`: did you mean `resolution_m`?");
