@@ -80,7 +80,8 @@ died_too_often() {
   ((${#recent[@]} >= nbs_give_up_deaths))
 }
 
-# handle_end PID CODE: what follows from the end of a process. Returns 0 to go on; otherwise the exit code of the run.
+# handle_end PID CODE: what follows from the end of a process. Returns 0 to go on; otherwise the exit code of the run. A service that was told to stop by
+# somebody else ends with the code of that signal.
 handle_end() {
   local name=${nbs_service_of[$1]:-} code=$2
   [[ -n $name ]] || return 0

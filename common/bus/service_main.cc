@@ -59,7 +59,8 @@ int Fail(const std::string& service, const std::exception& error, int code) {
 }
 
 /// Runs until the end, and ends the process itself if the node does not come back from a long computation: the
-/// histories are whole at any time.
+/// histories are whole at any time. The exit code after a signal is that of a process that died of it: whoever watches
+/// over the service sees that it has not finished.
 int RunToTheEnd(const std::string& service, ServiceRunner& runner) {
   constexpr std::chrono::milliseconds kPatience{500};
   int code = 0;
@@ -67,6 +68,7 @@ int RunToTheEnd(const std::string& service, ServiceRunner& runner) {
     const StopSignal stop([&runner] { runner.Stop(); });
     try {
       runner.Run();
+      if (stop.number() != 0) code = 128 + stop.number();
     } catch (const std::exception& error) {
       code = Fail(service, error, 2);
     }

@@ -22,7 +22,7 @@ using NodeFactory = std::function<std::unique_ptr<Node>(const RunConfig&)>;
 /// ends).
 ///
 /// @param service  Name in the wiring table; decides which streams are read and published.
-/// @returns The exit code: 0 finished or stopped by a signal; 1 bad input, in one sentence on stderr; 2 failed.
+/// @returns The exit code: 0 finished; 1 bad input, in one sentence on stderr; 2 failed; 128 and its number: a signal.
 int RunService(std::string_view service, int argc, char** argv, const NodeFactory& make_node);
 
 }  // namespace nbs

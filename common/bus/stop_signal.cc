@@ -7,7 +7,12 @@ namespace {
 
 std::function<void()> g_on_signal;  // Set before the handler is installed, cleared after it is removed.
 
-void OnSignal(int) { g_on_signal(); }
+volatile std::sig_atomic_t g_number = 0;
+
+void OnSignal(int number) {
+  g_number = number;
+  g_on_signal();
+}
 
 void SetHandler(void (*handler)(int)) {
   struct sigaction action {};
@@ -20,9 +25,12 @@ void SetHandler(void (*handler)(int)) {
 
 StopSignal::StopSignal(std::function<void()> on_signal) {
   g_on_signal = std::move(on_signal);
+  g_number = 0;
   SetHandler(&OnSignal);
 }
 
 StopSignal::~StopSignal() { SetHandler(SIG_DFL); }
+
+int StopSignal::number() const { return g_number; }
 
 }  // namespace nbs

@@ -36,7 +36,7 @@ if [[ -n $offline ]]; then
 fi
 
 [[ -z $check ]] || exit 0
-trap 'exit 0' TERM
+trap 'exit 143' TERM
 echo "$$ $url" >>"$run/$name.starts"
 [[ $name != reporter ]] || echo 'scan 0'
 while [[ ! -e $run/finish ]]; do

@@ -119,16 +119,18 @@ class Scan(ScriptTest):
         wait_until(lambda: not any(map(is_alive, self.pids(run))), "all services have ended", seconds=2)
 
     def test_service_that_is_killed_is_started_again_at_once(self):
-        process, run = self.start_scan()
-        starts = run / "mesher.starts"
-        os.kill(int(starts.read_text().split()[0]), signal.SIGKILL)
-        killed = time.monotonic()
-        wait_until(lambda: len(starts.read_text().splitlines()) == 2, "mesher started again")
-        self.assertLess(time.monotonic() - killed, 0.5)
-        (run / "finish").touch()
-        _, errors = process.communicate(timeout=30)
-        self.assertEqual((0, "supervisor: mesher died of signal KILL; started again\n"), (process.returncode, errors))
-        self.assertIn("mesher died of signal KILL", (run / "logs/supervisor.log").read_text())
+        for number, name, service in ((signal.SIGKILL, "KILL", "mesher"), (signal.SIGTERM, "TERM", "mesher"), (signal.SIGTERM, "TERM", "reporter")):
+            with self.subTest(name, service=service):
+                process, run = self.start_scan(f"{service}-{name}")
+                starts = run / f"{service}.starts"
+                os.kill(int(starts.read_text().split()[0]), number)
+                killed = time.monotonic()
+                wait_until(lambda: len(starts.read_text().splitlines()) == 2, f"{service} started again", seconds=5)
+                self.assertLess(time.monotonic() - killed, 0.5)
+                (run / "finish").touch()
+                _, errors = process.communicate(timeout=30)
+                self.assertEqual((0, f"supervisor: {service} died of signal {name}; started again\n"), (process.returncode, errors))
+                self.assertIn(f"{service} died of signal {name}", (run / "logs/supervisor.log").read_text())
 
     def test_service_that_keeps_dying_ends_the_run(self):
         process, run = self.start_scan()

@@ -71,14 +71,14 @@ class Scan(WholeRunTest):
         self.assert_same_model("right")
         self.assert_nothing_runs()
 
-    def kill_in_turn(self, name, services):
+    def kill_in_turn(self, name, services, kind=signal.SIGKILL):
         """A run in which each service is killed once, evenly over the run."""
         process = self.start_scan(name)
         for number, service in enumerate(services):
             self.wait_for_share(name, (number + 1) / (len(services) + 1))
-            os.kill(self.pid_of(name, service), signal.SIGKILL)
+            os.kill(self.pid_of(name, service), kind)
         _, errors = self.finish(process)
-        self.assertEqual([f"supervisor: {service} died of signal KILL; started again" for service in services], errors.splitlines())
+        self.assertEqual([f"supervisor: {service} died of signal {kind.name.removeprefix('SIG')}; started again" for service in services], errors.splitlines())
         self.assert_same_model(name)
         self.assert_nothing_runs()
 
@@ -87,6 +87,9 @@ class Scan(WholeRunTest):
 
     def test_with_killed_hardware_and_coordinator_gives_the_same_model(self):
         self.kill_in_turn("killed_too", ["sensor", "robot", "simulator", "coordinator", "reporter"])
+
+    def test_with_services_that_are_told_to_stop_gives_the_same_model(self):
+        self.kill_in_turn("stopped", ["mesher", "planner", "robot", "reporter"], signal.SIGTERM)
 
     def test_with_lost_datagrams_gives_the_same_model(self):
         self.finish(self.start_scan("dropped", NBS_SERVICE_OPTIONS="--drop 0.05 --drop-seed 7"))

@@ -38,8 +38,10 @@ int Child::Wait(double limit_s) {
   const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit_s);
   while (code_ < 0) {
     int status = 0;
-    if (waitpid(pid_, &status, WNOHANG) == pid_)
-      code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    if (waitpid(pid_, &status, WNOHANG) == pid_) {
+      was_killed_ = WIFSIGNALED(status);
+      code_ = was_killed_ ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+    }
     if (std::chrono::steady_clock::now() > until) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }

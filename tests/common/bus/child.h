@@ -20,10 +20,13 @@ class Child {
   void Signal(int number) const;
   /// Waits for its end: the exit code, or 128 + the signal's number; -1 if it still runs after the time limit.
   int Wait(double limit_s);
+  /// True if it has not ended by itself, but died of a signal.
+  bool was_killed() const { return was_killed_; }
 
  private:
   pid_t pid_;
   int code_ = -1;
+  bool was_killed_ = false;
 };
 
 /// Path of the service with fake nodes (probe_service.cc).

@@ -70,15 +70,17 @@ TEST_F(Services, EndCleanlyOnSigtermAndSigint) {
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   robot->Signal(SIGTERM);
   simulator->Signal(SIGINT);
-  EXPECT_EQ(robot->Wait(5), 0);
-  EXPECT_EQ(simulator->Wait(5), 0);
+  EXPECT_EQ(robot->Wait(5), 128 + SIGTERM);
+  EXPECT_EQ(simulator->Wait(5), 128 + SIGINT);
+  EXPECT_FALSE(robot->was_killed());
+  EXPECT_FALSE(simulator->was_killed());
 }
 
 TEST_F(Services, EndOnSigtermInTheMiddleOfALongComputation) {
   const auto busy = Start("mesher", "busy", 0, 0);
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   busy->Signal(SIGTERM);
-  EXPECT_EQ(busy->Wait(5), 0);
+  EXPECT_EQ(busy->Wait(5), 128 + SIGTERM);
 }
 
 TEST_F(Services, KilledInMidStreamMakeTheSameHistory) {
