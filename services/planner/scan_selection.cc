@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace nbs {
@@ -109,7 +110,8 @@ bool Advance(Entry entry, double min_gain_nat, const SelectionTools& tools, Path
     rated.gain_nat = tools.calc_gain(rated.candidate.path);
     entry.score = tools.calc_score(rated.candidate, rated.gain_nat);
   };
-  if (rated.gain_nat < min_gain_nat) return reject(Verdict::kNoGain);
+  // What is too little of a part may be enough of the whole, once that is free.
+  if (rated.gain_nat < min_gain_nat) return reject(entry.partly ? Verdict::kPartly : Verdict::kNoGain);
   if (entry.stage == Stage::kEstimated) {
     rate();
     entry.stage = Stage::kEvaluated;
@@ -167,19 +169,21 @@ ScanSelection::Result ScanSelection::Select(const SelectionTools& tools, double 
   while (!heap.empty() && !result.found) Advance(heap.Pop(), min_gain_nat, tools, checker, heap, result);
   while (!heap.empty()) {
     Entry entry = heap.Pop();
-    if (entry.rated.gain_nat < min_gain_nat) {
+    if (entry.partly) {
+      entry.rated.verdict = Verdict::kPartly;
+    } else if (entry.rated.gain_nat < min_gain_nat) {
       entry.rated.verdict = Verdict::kNoGain;
     } else if (entry.stage == Stage::kChecked) {
-      entry.rated.verdict = entry.partly ? Verdict::kPartly : Verdict::kReachable;
+      entry.rated.verdict = Verdict::kReachable;
     }
     result.rated.push_back(std::move(entry.rated));
   }
 
-  stack_.clear();
+  std::set<int32_t> gone;
   for (const RatedCandidate& rated : result.rated) {
-    if (StaysOnStack(rated.verdict)) stack_.push_back(rated.candidate);
+    if (!StaysOnStack(rated.verdict)) gone.insert(rated.candidate.id);
   }
-  std::ranges::sort(stack_, {}, &Candidate::id);
+  std::erase_if(stack_, [&](const Candidate& candidate) { return gone.contains(candidate.id); });
   return result;
 }
 

@@ -67,9 +67,10 @@ class ScanSelection {
   ///
   /// All candidates are ranked by the score of the estimated gain; from the top, each is then evaluated with all beams,
   /// checked, and given a motion, until one is left that no other can surpass. A candidate of which only a part can be
-  /// reached, or which can be reached with the stripe askew, competes with the gain of that. Ties go to the older
-  /// candidate. Off the stack go: the chosen one, and those blocked by an obstacle, outside of the work space, or
-  /// without gain. Those blocked by unknown space or without a motion stay.
+  /// reached, or which can be reached with the stripe askew, competes with the gain of that; unless it is chosen it
+  /// stays on the stack as it was, because what blocks the rest may turn out free. Ties go to the older candidate. Off
+  /// the stack go: the chosen one, and those blocked by an obstacle, outside of the work space, or without gain. Those
+  /// blocked by unknown space or without a motion stay.
   ///
   /// @param min_gain_nat  A candidate that promises less is discarded, >= 0.
   Result Select(const SelectionTools& tools, double min_gain_nat);

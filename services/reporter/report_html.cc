@@ -30,7 +30,8 @@ const char* Explain(Verdict verdict) {
     case Verdict::kReachable:
       return "can be scanned; another promised more; stays on the stack";
     case Verdict::kPartly:
-      return "only part of its path can be reached; that part stays on the stack";
+      return "only part of its path can be reached, and that promised less than the chosen one; stays on the stack as "
+             "a whole";
     case Verdict::kBlockedByObstacle:
       return "the sensor would touch something occupied; discarded";
     case Verdict::kBlockedByUnknown:

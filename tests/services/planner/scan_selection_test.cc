@@ -74,6 +74,24 @@ TEST(ScanSelection, TheHighestGainThatCanBeReachedWins) {
   EXPECT_EQ(world.motions_planned, 1);
 }
 
+TEST(ScanSelection, AsLongAsOnlyAPartIsReachedTheWholePathStays) {
+  MadeUpWorld world;
+  world.gains = {{100, 5.0}, {400, 9.0}, {40, 0.5}};
+  world.checks = {{400, Verdict::kPartly}};
+  world.parts = {{400, 40}};
+  ScanSelection selection;
+  selection.Add(MakeCandidates({100, 400}));
+  const auto first = selection.Select(world.MakeTools(), 1.0);
+  EXPECT_EQ(first.chosen.candidate.id, 0);
+  EXPECT_EQ(first.rated.back().verdict, Verdict::kPartly);  // Though the part alone is not worth a scan.
+  EXPECT_EQ(first.rated.back().gain_nat, 0.5);
+  world.checks.clear();
+  const auto second = selection.Select(world.MakeTools(), 1.0);
+  ASSERT_TRUE(second.found);
+  EXPECT_EQ(MadeUpWorld::Key(second.chosen.candidate.path), 400);
+  EXPECT_EQ(second.chosen.gain_nat, 9.0);
+}
+
 TEST(ScanSelection, APathThatCanBeDrivenOnlyAskewCompetesWithWhatItSeesThen) {
   MadeUpWorld world;
   world.gains = {{100, 5.0}, {200, 9.0}, {201, 4.0}};
