@@ -1,5 +1,6 @@
 """Starting, watching over and stopping services, with stand-ins for the services: what the scripts promise whatever the services do."""
 
+import fcntl
 import os
 import pathlib
 import shutil
@@ -229,6 +230,30 @@ class Launch(ScriptTest):
         self.assertIn("the planner of this run is running already", errors)
         self.run_script("stop", "--run", run)
         self.assert_nothing_runs(run)
+
+    def register_set(self, pid, run, namespace, age_s):
+        """As bus.sh does, and locked as if it ran."""
+        file = self.folder / "state/sets" / str(pid)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(f"{run}\nudpm://239.255.76.67:{pid}?ttl=0\n{namespace}\nrobot simulator\n")
+        os.utime(file, (time.time() - age_s, time.time() - age_s))
+        lock = file.open()
+        self.addCleanup(lock.close)
+        fcntl.flock(lock, fcntl.LOCK_EX)
+
+    def test_joins_the_namespace_of_its_own_run(self):
+        tools = self.folder / "tools"
+        tools.mkdir()
+        (tools / "nsenter").write_text('#!/bin/sh\necho "entered $5"\n')
+        (tools / "nsenter").chmod(0o755)
+        self.environment["PATH"] = f"{tools}:{self.environment['PATH']}"
+        for number, run in enumerate(("first", "second")):
+            (self.folder / run).mkdir()
+            (self.folder / run / "run.yaml").touch()
+            self.register_set(101 + number, self.folder / run, 201 + number, age_s=number)
+        for run, namespace in (("first", 201), ("second", 202)):
+            code, output, errors = self.run_script("launch", "mapping", "--run", self.folder / run)
+            self.assertEqual((0, f"entered {namespace}\n", ""), (code, output, errors))
 
     def test_bad_options_get_one_sentence(self):
         for arguments in ([], ["everything"], ["all", "--run", self.folder], ["sim", "--run"]):
