@@ -17,12 +17,16 @@ need_multicast() {
   fail "no multicast route for LCM and no right to make one: run as root \`ip route add $nbs_group/32 dev lo\`, then try again"
 }
 
-# take_port: a port that no other set of this user's uses; sets nbs_url. The lock is inherited by the services, so the port is free again only when the last
-# of them is gone.
+# is_taken PORT: true if somebody, of whatever user, listens to the UDP port.
+is_taken() { grep -Eq "^ *[0-9]+: [0-9A-F]{8}:$(printf %04X "$1") " /proc/net/udp 2>/dev/null; }
+
+# take_port: a port that no other set uses; sets nbs_url. The lock is inherited by the services, so the port is free again only when the last of them is gone.
+# Each user has a range: locks are seen by one user only. Where two share one, they see each other's sockets.
 take_port() {
   make_state_folder
-  local port first=$((20000 + $(id -u) % 100 * 100))
+  local port first=$((20000 + $(id -u) % 120 * 100))
   for ((port = first; port < first + 100; ++port)); do
+    ! is_taken "$port" || continue
     exec {nbs_port_lock}>>"$nbs_state/port-$port"
     if flock -n "$nbs_port_lock"; then
       # ttl=0: no datagram leaves this machine.

@@ -3,8 +3,10 @@
 import fcntl
 import os
 import pathlib
+import re
 import shutil
 import signal
+import socket
 import subprocess
 import tempfile
 import time
@@ -188,6 +190,19 @@ class Scan(ScriptTest):
             (run / "finish").touch()
             process.communicate(timeout=30)
             self.assertEqual(0, process.returncode)
+
+    def test_leaves_alone_a_port_that_others_listen_to(self):
+        def find_port(name):
+            process, run = self.start_scan(name)
+            (run / "finish").touch()
+            process.communicate(timeout=30)
+            return int(re.search(r":(\d+)\?", (run / "robot.starts").read_text()).group(1))
+
+        port = find_port("first")
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+            other.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            other.bind(("", port))
+            self.assertNotEqual(port, find_port("second"))
 
     def test_bad_options_get_one_sentence(self):
         for arguments in (["--colour", "red"], ["statue"], ["--seed"]):
