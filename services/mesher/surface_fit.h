@@ -12,7 +12,7 @@ struct SurfaceFitSettings {
   float height_tolerance_m = 0.004f;  ///< Samples further than this from the surface along the normal have no weight:
                                       ///< another sheet, or an outlier.
   int min_measurements = 5;           ///< Fewer within R_n and the tolerance: no fit.
-  float min_spread_m = 0.0009f;  ///< Least standard deviation of the samples across the surface, in their narrowest
+  float min_spread_m = 0.0008f;  ///< Least standard deviation of the samples across the surface, in their narrowest
                                  ///< direction: no normal from one stripe.
   float max_curvature_per_m = 150.0f;  ///< Prior on the quadratic terms: their expected size.
 };
