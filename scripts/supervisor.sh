@@ -54,6 +54,8 @@ stop_services() {
         say "supervisor: ${nbs_service_of[$pid]} does not stop: killed"
         note "killed ${nbs_service_of[$pid]}, which did not stop"
         kill -KILL "$pid" 2>/dev/null || true
+        wait "$pid" 2>/dev/null || true
+        unset "nbs_service_of[$pid]"
       fi
     done
     sleep 0.02

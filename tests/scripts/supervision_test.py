@@ -135,6 +135,14 @@ class Scan(ScriptTest):
                 self.assertEqual((0, f"supervisor: {service} died of signal {name}; started again\n"), (process.returncode, errors))
                 self.assertIn(f"{service} died of signal {name}", (run / "logs/supervisor.log").read_text())
 
+    def test_service_that_does_not_stop_is_killed_and_named_once(self):
+        process, run = self.start_scan()
+        os.kill(int((run / "mesher.starts").read_text().split()[0]), signal.SIGSTOP)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=30)
+        self.assertEqual((130, 1), (process.returncode, errors.count("supervisor: mesher does not stop: killed\n")))
+        self.assert_nothing_runs(run)
+
     def test_service_that_keeps_dying_ends_the_run(self):
         process, run = self.start_scan()
         (run / "planner.order").write_text("137 crash\n")
