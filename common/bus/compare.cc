@@ -5,11 +5,19 @@
 
 #include "common/bus/history.h"
 #include "common/bus/log_store.h"
+#include "common/messages/translate.h"
 
 namespace nbs {
 
+bool CameToItsEnd(const std::filesystem::path& log) {
+  const LogStore states = std::move(ReadLogStores(log, {"RUN_STATE"}).at("RUN_STATE"));
+  if (states.size() == 0) return true;
+  const Decoded last = Decode(StreamOf<RunState>(), states.Read(states.size() - 1));
+  return !last.message || std::get<RunState>(*last.message).phase == RunPhase::kFinished;
+}
+
 ChannelComparison CompareChannel(const std::filesystem::path& log, const std::filesystem::path& streams_folder,
-                                 const std::string& channel) {
+                                 const std::string& channel, bool ended) {
   const LogStore recorded = std::move(ReadLogStores(log, {channel}).at(channel));
   const std::filesystem::path file = streams_folder / (channel + ".lcm");
   std::optional<History> history;
@@ -30,7 +38,7 @@ ChannelComparison CompareChannel(const std::filesystem::path& log, const std::fi
     ++result.identical;
   }
   if (made < recorded.size()) result.difference = at(made) + " was recorded but not made";
-  if (made > recorded.size()) result.difference = at(recorded.size()) + " was made but not recorded";
+  if (made > recorded.size() && ended) result.difference = at(recorded.size()) + " was made but not recorded";
   return result;
 }
 

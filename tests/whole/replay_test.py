@@ -2,10 +2,11 @@
 
 import re
 import shutil
+import subprocess
 import unittest
 
 from lcm_log import find_messages
-from run_testing import WholeRunTest
+from run_testing import BINARY, WholeRunTest
 
 OUTPUTS = ["MESH", "MESH_SCAN", "VOXELS", "PLAN", "CANDIDATES"]
 
@@ -46,6 +47,27 @@ class Replay(WholeRunTest):
                 recorded, made, identical = map(int, re.findall(r"(\d+) (?:recorded|made|identical)", line))
                 self.assertGreater(recorded, 0)
                 self.assertEqual((recorded, recorded), (made, identical))
+
+    def test_of_a_run_that_was_cut_short_makes_again_what_it_has(self):
+        cut = self.folder / "cut"
+        shutil.copytree(self.run_folder, cut)
+        # Stripes were on their way to a mesher that had folded half of them, and the coordinator had not come to the end.
+        for channel, share in (("MESH", 0.5), ("MESH_SCAN", 0.5), ("RUN_STATE", 0.8)):
+            file = cut / f"streams/{channel}.lcm"
+            history = file.read_bytes()
+            messages = find_messages(history, channel)
+            offset, length = messages[int(share * len(messages))]
+            file.write_bytes(history[: offset + length])
+        subprocess.run([BINARY / "bin/nbs-reporter", "--run", cut, "--offline"], check=True)
+        output, errors = self.replay(0, run=cut)
+        self.assertEqual("", errors)
+        first, *lines = output.splitlines()
+        self.assertEqual("the recorded run was cut short: what was made beyond its record is not compared", first)
+        counts = [tuple(map(int, re.findall(r"(\d+) (?:recorded|made|identical)", line))) for line in lines]
+        self.assertEqual(len(OUTPUTS), len(counts))
+        for recorded, made, identical in counts:
+            self.assertGreaterEqual(made, recorded)
+            self.assertEqual(recorded, identical)
 
     def test_as_fast_as_the_bus_goes_is_repaired_to_the_same(self):
         self.replay(0, "--speed", 0)

@@ -5,7 +5,7 @@
 #include "common/bus/compare.h"
 
 /// nbs-compare: whether a replay made the recorded streams again, byte for byte. Exit code 0: it did; 1: bad input; 2:
-/// it did not, or a log is missing or damaged.
+/// it did not, or a log is missing or damaged. Of a run that was cut short only what was recorded is compared.
 int main(int argc, char** argv) {
   CLI::App app{"Compares streams of a recorded log with the histories that another run made, byte for byte."};
   std::string log;
@@ -21,8 +21,10 @@ int main(int argc, char** argv) {
   }
   int code = 0;
   try {
+    const bool ended = nbs::CameToItsEnd(log);
+    if (!ended) std::printf("the recorded run was cut short: what was made beyond its record is not compared\n");
     for (const std::string& channel : channels) {
-      const nbs::ChannelComparison result = nbs::CompareChannel(log, streams, channel);
+      const nbs::ChannelComparison result = nbs::CompareChannel(log, streams, channel, ended);
       std::printf("%s: %lld recorded, %lld made, %lld identical\n", channel.c_str(),
                   static_cast<long long>(result.recorded), static_cast<long long>(result.made),
                   static_cast<long long>(result.identical));

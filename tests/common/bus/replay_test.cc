@@ -49,6 +49,15 @@ class RecordedRun : public testing::Test {
     for (LogEvent event; reader.Next(event);) events.push_back(event);
     return events;
   }
+  // Appends a state of the coordinator to the log.
+  void AddRunState(RunPhase phase, int64_t seq) const {
+    RunState state;
+    state.phase = phase;
+    const MessageHeader header{7, seq, 0, "coordinator"};
+    const std::vector<uint8_t> bytes = EncodeLogEvent(2 * kStates + seq, 0, "RUN_STATE", Encode(header, state));
+    std::ofstream log(log_, std::ios::binary | std::ios::app);
+    log.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  }
   // Changes one byte of a file.
   static void Damage(const std::filesystem::path& file, int64_t offset) {
     std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
@@ -127,6 +136,33 @@ TEST_F(RecordedRun, DiffersFromAChangedOneAtANamedByte) {
   const std::string size = std::to_string(event.data.size());
   EXPECT_EQ(result.difference,
             "PROFILE message 3 differs at byte 100 (" + size + " bytes recorded, " + size + " made)");
+}
+
+TEST_F(RecordedRun, ThatWasCutShortHasNoDifferenceInWhatWasMadeBeyondIt) {
+  const std::string program = std::string(NBS_BINARY_DIR) + "/bin/nbs-compare";
+  const auto compare = [&] {
+    return Child({program, "--log", log_, "--streams", streams_, "--channels", "PROFILE"}).Wait(10);
+  };
+  // The last profile comes last of all.
+  std::filesystem::resize_file(log_, std::filesystem::file_size(log_) - 28 - 7 - ReadLog().back().data.size());
+  EXPECT_TRUE(CameToItsEnd(log_));
+  EXPECT_EQ(CompareChannel(log_, streams_, "PROFILE").difference, "PROFILE message 299 was made but not recorded");
+  EXPECT_EQ(compare(), 2);
+  AddRunState(RunPhase::kScanning, 0);
+  EXPECT_FALSE(CameToItsEnd(log_));
+  const ChannelComparison result = CompareChannel(log_, streams_, "PROFILE", false);
+  EXPECT_EQ(result.difference, "");
+  EXPECT_EQ(result.identical, kStates - 1);
+  EXPECT_EQ(compare(), 0);
+  AddRunState(RunPhase::kFinished, 1);
+  EXPECT_TRUE(CameToItsEnd(log_));
+  EXPECT_EQ(compare(), 2);
+}
+
+TEST_F(RecordedRun, ThatWasCutShortStillDiffersInWhatItHas) {
+  std::filesystem::resize_file(streams_ / "PROFILE.lcm", std::filesystem::file_size(streams_ / "PROFILE.lcm") - 1);
+  EXPECT_EQ(CompareChannel(log_, streams_, "PROFILE", false).difference,
+            "PROFILE message 299 was recorded but not made");
 }
 
 TEST_F(RecordedRun, DiffersFromAShorterOne) {
