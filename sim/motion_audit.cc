@@ -52,10 +52,6 @@ bool TouchesFloor(const PlacedPart& part, double floor_z_m) {
   return std::ranges::any_of(part.capsules_W, touches) || std::ranges::any_of(part.blocks_W, touches);
 }
 
-Joints ToJoints(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
 }  // namespace
 
 struct MotionAuditor::World {
@@ -64,7 +60,7 @@ struct MotionAuditor::World {
 
   Posture MakePosture(int64_t utime_us, const Pose& X_WF, const std::vector<double>& joints_rad, bool scanning) const {
     if (!robot.arm()) return {utime_us, X_WF, {}, scanning};
-    return robot.MakePosture(utime_us, ToJoints(joints_rad), scanning);
+    return robot.MakePosture(utime_us, MakeJoints(joints_rad), scanning);
   }
 
   /// States and points of a motion in the order of time; where both lie at one instant the state comes first.

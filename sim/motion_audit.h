@@ -87,6 +87,8 @@ class MotionAuditor {
   MotionAuditor(MotionAuditor&&) noexcept;
 
   /// Looks at the motion that follows those looked at before.
+  ///
+  /// @throws std::invalid_argument if a state or point of an arm has not a value for each of its joints.
   void Look(const ExecutedMotion& motion);
 
   const MotionAudit& audit() const { return audit_; }

@@ -1,6 +1,7 @@
 #include "sim/robot_body.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "common/kinematics/urdf_reader.h"
 
@@ -29,7 +30,11 @@ RobotBody::RobotBody(const RunConfig& config) : tool_F_(MakeTool(config.cell)) {
 }
 
 Posture RobotBody::MakePosture(int64_t utime_us, const Joints& q, bool scanning) const {
-  return {utime_us, X_WB_ * CalcFlangePose(arm_.value(), q), q, scanning};
+  if (q.size() != arm_.value().n()) {
+    throw std::invalid_argument("RobotBody: " + std::to_string(q.size()) + " joint values for an arm of " +
+                                std::to_string(arm_->n()));
+  }
+  return {utime_us, X_WB_ * CalcFlangePose(*arm_, q), q, scanning};
 }
 
 Posture RobotBody::Interpolate(const Posture& from, const Posture& to, double share) const {

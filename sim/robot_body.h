@@ -37,6 +37,8 @@ class RobotBody {
   const Pose& X_WB() const { return X_WB_; }
 
   /// An arm's posture at the joint values given; its flange follows from them.
+  ///
+  /// @throws std::invalid_argument if there is not a value for each joint.
   Posture MakePosture(int64_t utime_us, const Joints& q, bool scanning) const;
 
   /// Half-way and elsewhere between two postures: an arm moves its joints evenly, a sensor alone flies straight.

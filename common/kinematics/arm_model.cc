@@ -2,10 +2,18 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 namespace nbs {
 
 using std::numbers::pi;
+
+Joints MakeJoints(std::span<const double> values_rad) {
+  if (values_rad.size() > kMaxJoints)
+    throw std::invalid_argument("MakeJoints: an arm has no " + std::to_string(values_rad.size()) + " joints");
+  return Eigen::Map<const Eigen::VectorXd>(values_rad.data(), static_cast<Eigen::Index>(values_rad.size()));
+}
 
 void CalcLinkPoses(const ArmModel& model, const Joints& q, LinkPoses& X_BL) {
   X_BL[0] = Pose::Identity();

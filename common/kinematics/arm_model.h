@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ inline constexpr int kMaxJoints = 8;
 
 /// Joint values, radians, from base to flange.
 using Joints = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxJoints, 1>;
+
+/// The same values as a vector.
+///
+/// @throws std::invalid_argument if there are more than kMaxJoints.
+Joints MakeJoints(std::span<const double> values_rad);
 
 /// All points within `radius_m` of the straight line from A to B; a sphere where A equals B. Metres, in the frame of
 /// its link.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/kinematics/arm_model.h"
+
 namespace nbs {
 namespace {
 
@@ -23,8 +25,12 @@ bool IsSound(const RatedCandidate& rated) {
   return IsRigid(c.path.X_WS_start) && IsRigid(c.path.X_WS_end) && std::isfinite(rated.gain_nat);
 }
 
+bool AreJoints(const std::vector<double>& joints_rad) {
+  return joints_rad.size() <= kMaxJoints && IsFinite(joints_rad);
+}
+
 bool IsSound(const TrajectoryPoint& point) {
-  return point.time_us >= 0 && IsRigid(point.X_WF) && IsFinite(point.joints_rad);
+  return point.time_us >= 0 && IsRigid(point.X_WF) && AreJoints(point.joints_rad);
 }
 
 bool IsSound(const MeshVertex& v) {
@@ -53,7 +59,7 @@ std::string Fault(const Trajectory& trajectory) {
 
 std::string Fault(const RobotState& state) {
   if (!IsRigid(state.X_WF)) return "X_WF is no rigid transform";
-  return IsFinite(state.joints_rad) ? "" : "a joint is not finite";
+  return AreJoints(state.joints_rad) ? "" : "a joint is not finite, or there are too many of them";
 }
 
 std::string Fault(const Stripe& stripe) {

@@ -26,14 +26,16 @@ int WriteOffline(const std::filesystem::path& run_folder) {
                                [&meshes_W](const nbs::TriangleMesh& mesh_W) { meshes_W.push_back(mesh_W); });
     nbs::RunOffline(reporter, run_folder);
     nbs::MergeHistories(run_folder / "streams", run_folder / "bus.lcm");
-    const auto motions =
+    const auto joints = config.cell.arm ? std::optional(config.cell.arm->start_rad.size()) : std::nullopt;
+    const auto [motions, refused_states] =
         nbs::GroupMotions(nbs::ReadAll<nbs::Trajectory>(run_folder), nbs::ReadAll<nbs::RobotState>(run_folder),
-                          nbs::ReadAll<nbs::Execution>(run_folder));
+                          nbs::ReadAll<nbs::Execution>(run_folder), joints);
     const auto folder = run_folder / "registered";
     const auto registered = nbs::MakeRegisteredModel(
         {nbs::ReadAll<nbs::MeshDelta>(folder), nbs::ReadAll<nbs::MeshScan>(folder), nbs::ReadAll<nbs::Stripe>(folder)},
         nbs::ReadAll<nbs::Stripe>(run_folder), truth.MakeEvaluator());
     nbs::Findings findings = truth.Find((registered ? registered->mesh : reporter.mesh()).MakeCompactMesh(), motions);
+    findings.refused_states = refused_states;
     findings.time.mesh_s = nbs::ReadBusyTime(run_folder, "mesher");
     findings.time.map_s = nbs::ReadBusyTime(run_folder, "voxelmap");
     nbs::AddPlanning(reporter.record(), findings.time);

@@ -120,6 +120,8 @@ std::string MakeSummary(const RunConfig& config, const RunRecord& record, const 
   if (const auto mean_s = CalcMeanSelection(record)) row("mean selection", fmt::format("{:.3f} s", *mean_s));
   row("wall time", fmt::format("{:.1f} s", wall_s));
   row("refused measurements", fmt::format("{}", record.refused_measurements));
+  if (findings.refused_states > 0)
+    row("robot states without the arm's joints, not looked at", fmt::format("{}", findings.refused_states));
   return "<table>\n" + rows + "</table>\n";
 }
 

@@ -143,6 +143,7 @@ std::string MakeReportJson(const RunConfig& config, const RunRecord& record, con
   json["shape"] = MakeShape(findings.shape);
   json["wall_s"] = wall_s;
   json["refused_measurements"] = record.refused_measurements;
+  json["refused_states"] = findings.refused_states;
   json["robot_time_s"] =
       findings.motion ? ordered_json(findings.time.motion_s + findings.time.scan_s) : ordered_json(nullptr);
   json["time_split_s"] = MakeTimeSplit(findings.time);

@@ -86,6 +86,7 @@ struct Shape {
 struct Findings {
   std::optional<Remainder> remainder;  ///< What the last mesh lacks; none without a scan.
   std::optional<MotionAudit> motion;   ///< What the executed motions did.
+  int64_t refused_states = 0;          ///< Robot states that had not a value for each joint of the arm.
   TimeSplit time;
   std::optional<Registration> registration;  ///< None: the cell does not ask for it, or nothing was scanned.
   std::optional<Shape> shape;                ///< None: no arm, or no truth, or nothing was scanned.

@@ -173,10 +173,7 @@ class ScanPainter {
   ReportPicture Draw(const ScanRecord& scan, const RobotState& state, const TriangleMesh& mesh_W,
                      const TriangleMesh& before_W) const {
     Posture posture{state.utime_us, state.X_WF, {}, true};
-    if (robot_.arm()) {
-      posture.q = Eigen::Map<const Eigen::VectorXd>(state.joints_rad.data(),
-                                                    static_cast<Eigen::Index>(state.joints_rad.size()));
-    }
+    if (robot_.arm()) posture.q = MakeJoints(state.joints_rad);
     Drawing drawing;
     AddSeen(mesh_W, before_W, drawing);
     AddRobot(robot_, posture, drawing);

@@ -10,9 +10,7 @@
 namespace nbs {
 namespace {
 
-Joints JointsOf(const TrajectoryPoint& point) {
-  return Eigen::Map<const Eigen::VectorXd>(point.joints_rad.data(), static_cast<Eigen::Index>(point.joints_rad.size()));
-}
+Joints JointsOf(const TrajectoryPoint& point) { return MakeJoints(point.joints_rad); }
 
 std::string FindJointFault(const Trajectory& trajectory, const ArmLimits& limits) {
   for (size_t i = 0; i < trajectory.points.size(); ++i) {

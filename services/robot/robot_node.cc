@@ -10,8 +10,7 @@ RobotNode::RobotNode(const RunConfig& config)
     : clock_(config.cell.profiler.rate_hz), limits_(MakeRobotLimits(config.cell)) {
   if (config.cell.robot != "arm") return;
   arm_ = MakeArmLimits(config);
-  const std::vector<double>& start_rad = config.cell.arm->start_rad;
-  q_ = Eigen::Map<const Eigen::VectorXd>(start_rad.data(), static_cast<Eigen::Index>(start_rad.size()));
+  q_ = MakeJoints(config.cell.arm->start_rad);
   X_WF_ = arm_->X_WB * CalcFlangePose(arm_->model, q_);
 }
 

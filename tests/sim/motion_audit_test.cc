@@ -183,6 +183,15 @@ TEST_F(ArmAudit, ArmThatIsDrivenThroughTheObjectTouchesItWithTheSensorFirst) {
   EXPECT_EQ(audit.of(MotionFault::kContactObject).first->body, "sensor");
 }
 
+TEST_F(ArmAudit, StateWithAnotherNumberOfJointsIsRefusedAndNotRead) {
+  for (const size_t joints : {0, 5, 7, 9, 30}) {
+    ExecutedMotion motion = Execute({MakeArmPoint(0, MakeStart()), MakeArmPoint(1000, MakeStart())});
+    motion.states[1].joints_rad.assign(joints, 0.1);
+    MotionAuditor auditor(MakeSphere(0.1f, 3), config_);
+    EXPECT_THROW(auditor.Look(motion), std::invalid_argument) << joints;
+  }
+}
+
 TEST_F(ArmAudit, LinksTouchAsWellAsTheSensor) {
   // A ball of 100 mm around the middle of each moving link at the start; the arm stands still.
   LinkPoses X_BL;

@@ -11,10 +11,6 @@
 namespace nbs {
 namespace {
 
-Joints ToJoints(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
 ArmSetup MakeSetup(const RunConfig& config) {
   const ArmConfig& arm = config.cell.arm.value();
   const ArmModel model = ReadArm(arm.urdf, arm.base_link, arm.flange_link);
@@ -68,7 +64,7 @@ ArmMotion::ArmMotion(const RunConfig& config, const MotionSettings& settings)
       search_(config.cell.arm.value().motion_search == "prm" ? SearchAlgorithm::kPrm : SearchAlgorithm::kRrtConnect),
       arm_(MakeSetup(config)),
       limits_(MakeArmLimits(config.cell, arm_.ik.model())),
-      q_start_(ToJoints(config.cell.arm->start_rad)) {
+      q_start_(MakeJoints(config.cell.arm->start_rad)) {
   reach_.min_part_m = settings.min_part_m;
   reach_.half_turns = !config.cell.profiler.HasCamera();
 }
@@ -126,7 +122,7 @@ MotionResult ArmMotion::Plan(const Clearance& clearance, const RobotPosture& now
                              uint64_t seed) const {
   const ArmReach reach = FindArmReach(arm_, clearance, path, reach_);
   if (reach.drives.empty()) return {reach.verdict, path, {}};
-  const Joints q_now = ToJoints(now.joints_rad);
+  const Joints q_now = MakeJoints(now.joints_rad);
   const std::optional<Joints> q_from = FindEscape(clearance, q_now);
   if (!q_from) return {Verdict::kNoMotion, path, {}};
   // Only the longest part competes, so that what was rated is what is driven.

@@ -16,6 +16,14 @@ Joints FromDegrees(std::initializer_list<double> degrees) {
   return q;
 }
 
+TEST(ArmModel, JointValuesAreTakenUpToTheMostThatAnArmHas) {
+  const std::vector<double> values = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
+  const Joints q = MakeJoints(std::span(values).first(8));
+  ASSERT_EQ(q.size(), 8);
+  EXPECT_EQ(q[7], 0.8);
+  EXPECT_THROW(MakeJoints(values), std::invalid_argument);
+}
+
 struct CheckPose {
   Joints q;
   Eigen::Vector3d p;

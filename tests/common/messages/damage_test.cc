@@ -96,6 +96,17 @@ TEST(Refusal, AMeshSlotOutOfRangeIsNamed) {
   EXPECT_EQ(FindRefusal(delta), "a triangle is unsound");
 }
 
+TEST(Refusal, MoreJointsThanAnyArmHasAreNamed) {
+  RobotState state;
+  state.joints_rad.assign(8, 0.5);
+  EXPECT_EQ(FindRefusal(state), "");
+  state.joints_rad.push_back(0.5);
+  EXPECT_EQ(FindRefusal(state), "a joint is not finite, or there are too many of them");
+  Trajectory trajectory;
+  trajectory.points.push_back({0, Pose::Identity(), state.joints_rad, false});
+  EXPECT_EQ(FindRefusal(trajectory), "a point of the trajectory is unsound");
+}
+
 TEST(Refusal, ANegativeTimeIsNamed) {
   PlanRequest request;
   request.utime_us = -1;
