@@ -23,11 +23,12 @@ run_out=
 
 # take_run_option OPTION VALUE: true if it is one of them.
 take_run_option() {
+  [[ -n $2 ]] || fail "option $1 needs a value, not an empty one"
   case $1 in
     --object) run_object=$2 ;;
     --method) run_method=$2 ;;
     --seed)
-      [[ $2 =~ ^[0-9]+$ ]] || fail "--seed must be a whole number from 0, not \`$2\`"
+      [[ $2 =~ ^(0|[1-9][0-9]{0,17})$ ]] || fail "--seed must be a whole number from 0, of at most 18 digits, not \`$2\`"
       run_seed=$2
       ;;
     --box) run_object= ;;
@@ -67,30 +68,37 @@ software_version() {
   printf '%s%s\n' "$version" "${commit:+ ($commit)}"
 }
 
-# discard_run FOLDER EXISTED: leaves of a run that cannot begin what was there before: nothing, or an empty folder.
+run_own=     # the folder of the run, once it is known to be nobody else's
+run_existed= # it was there before, empty
+
+# discard_run CODE: ends the script; leaves of a run that cannot begin what was there before: nothing, or an empty folder.
 discard_run() {
-  rm -rf "$1"
-  [[ -z $2 ]] || mkdir "$1"
+  trap '' INT TERM HUP
+  if [[ -n $run_own && -n $run_existed ]]; then
+    find "$run_own/" -mindepth 1 -delete
+  elif [[ -n $run_own ]]; then
+    rm -rf "$run_own"
+  fi
+  exit "$1"
 }
 
-# prepare_run: checks the options, makes the run folder with run.yaml, and has the planner check that the robot can begin; sets nbs_run.
+# prepare_run: checks the options, makes the run folder with run.yaml, and has the planner check that the robot can begin; sets nbs_run. Until the caller sets
+# another trap an interrupt discards the run.
 prepare_run() {
+  trap 'discard_run 130' INT TERM HUP
   check_space "$(canonical "${run_out:-$nbs_runs}")"
-  local made= existed=
   if [[ -z $run_out ]]; then
     run_out=$(default_out)
-    made=$run_out
-  elif [[ -e $run_out ]]; then
-    existed=yes
-  fi
-  if ! "$nbs_bin/nbs-prepare" "${nbs_prepare_options[@]}" --out "$run_out" --version "$(software_version)"; then
-    [[ -z $made ]] || rm -rf "$made"
-    exit 1
-  fi
-  if ! "$nbs_bin/nbs-planner" --run "$run_out" --check; then
-    discard_run "$run_out" "$existed"
-    exit 1
+    run_own=$run_out
   fi
   nbs_run=$(canonical "$run_out")
+  if [[ -e $nbs_run && -z $run_own ]]; then
+    run_existed=yes
+  elif mkdir "$nbs_run" 2>/dev/null; then
+    run_own=$nbs_run
+  fi
+  "$nbs_bin/nbs-prepare" "${nbs_prepare_options[@]}" --out "$nbs_run" --version "$(software_version)" || discard_run 1
+  run_own=$nbs_run
+  "$nbs_bin/nbs-planner" --run "$nbs_run" --check || discard_run 1
   mkdir -p "$nbs_run/logs"
 }

@@ -20,6 +20,7 @@ if [[ $name == prepare ]]; then
   [[ $options != *--method\ BAD* ]] || { echo 'unknown method `BAD`' >&2 && exit 1; }
   mkdir -p "$out"
   echo "name: fake" >"$out/run.yaml"
+  [[ $options != *slow.ply* ]] || touch "$out/slow"
   exit 0
 fi
 if [[ $name == remesh ]]; then
@@ -35,7 +36,10 @@ if [[ -n $offline ]]; then
   exit 0
 fi
 
-[[ -z $check ]] || exit 0
+if [[ -n $check ]]; then
+  [[ ! -e $run/slow ]] || { : >"$run/checking" && exec sleep 60; }
+  exit 0
+fi
 trap 'exit 143' TERM
 echo "$$ $url" >>"$run/$name.starts"
 [[ $name != reporter ]] || echo 'scan 0'

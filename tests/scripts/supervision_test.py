@@ -105,6 +105,23 @@ class Scan(ScriptTest):
         self.assertEqual((1, "unknown method `BAD`\n"), (code, errors))
         self.assertEqual([], list((self.folder / "runs").iterdir()))
 
+    def test_interrupted_before_it_begins_leaves_what_was_there(self):
+        mine = self.folder / "mine"
+        mine.mkdir()
+        for folder, arguments in ((self.folder / "runs", []), (self.folder / "new", ["--out", self.folder / "new"]), (mine, ["--out", mine])):
+            with self.subTest(arguments):
+                process = self.start("scan", "--object", "slow.ply", *arguments)
+                wait_until(lambda: list(folder.glob("**/checking")), "the planner checks")
+                os.killpg(process.pid, signal.SIGINT)
+                process.communicate(timeout=30)
+                self.assertEqual((130, []), (process.returncode, list(folder.glob("*"))))
+        self.assertEqual((True, False), (mine.exists(), (self.folder / "new").exists()))
+
+    def test_without_a_bus_leaves_no_folder(self):
+        (self.folder / "state").write_text("no folder")
+        code, _, errors = self.run_script("scan", "--out", self.folder / "run")
+        self.assertEqual((1, 1, False), (code, errors.count("\n"), (self.folder / "run").exists()))
+
     def test_interrupt_stops_everything_and_saves(self):
         process, run = self.start_scan()
         # As a terminal does: to the whole foreground group.
@@ -213,7 +230,7 @@ class Scan(ScriptTest):
             self.assertNotEqual(port, find_port("second"))
 
     def test_bad_options_get_one_sentence(self):
-        for arguments in (["--colour", "red"], ["statue"], ["--seed"]):
+        for arguments in (["--colour", "red"], ["statue"], ["--seed"], ["--seed", "010"], ["--seed", "9" * 19], ["--out", ""]):
             with self.subTest(arguments):
                 code, output, errors = self.run_script("scan", *arguments)
                 self.assertEqual((1, "", 1), (code, output, errors.count("\n")))
