@@ -5,6 +5,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -147,10 +148,16 @@ class Body {
     const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
     double value = 0.0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) {
+    const bool too_large = error == std::errc::result_out_of_range && !IsSmall(digits);
+    if (error == std::errc::invalid_argument || too_large || end != digits.data() + digits.size()) {
       Fail("has something else where a number should be, `" + std::string(word.substr(0, 20)) + "`");
     }
     return value;
+  }
+
+  /// Whether a number that no double can hold is too close to 0, and not too far from it.
+  static bool IsSmall(std::string_view number) {
+    return std::abs(std::strtod(std::string(number).c_str(), nullptr)) < 1.0;
   }
 
   template <typename T>

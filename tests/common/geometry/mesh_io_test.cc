@@ -178,6 +178,13 @@ TEST_F(MeshIo, RefusalsNameFileAndReason) {
   EXPECT_THAT(Refusal(Put("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), HasSubstr("cannot be read as a mesh"));
 }
 
+TEST_F(MeshIo, AnAsciiNumberThatNoDoubleHoldsIsRefusedWhereLargeAndZeroWhereSmall) {
+  const std::string rest = " 0 0 9\n1 0 0 9\n0 1 0 9\n0 1 1 9\n3 0 1 2\n";
+  for (const std::string number : {"1e400", "-1e400", "1e99999"})
+    EXPECT_THAT(Refusal(Put("a.ply", kPlyHeader + number + rest)), HasSubstr("where a number should be, `" + number));
+  EXPECT_EQ(ReadMesh(Put("a.ply", kPlyHeader + std::string("-1e-400") + rest)).vertices_W.at(0).x(), 0.0f);
+}
+
 TEST_F(MeshIo, AHugeAnnouncedCountIsRefusedWithoutAllocating) {
   std::string text = kPlyHeader;
   text.replace(text.find("vertex 4"), 8, "vertex 4000000000000");
