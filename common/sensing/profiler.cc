@@ -19,6 +19,8 @@ std::vector<Eigen::Vector3d> CalcBeamDirections_S(const Profiler& profiler) {
   return directions_S;
 }
 
+Eigen::Vector3d CalcCamera_S(const Profiler& profiler) { return {0.0, profiler.camera_baseline_m, 0.0}; }
+
 double CalcRangeSigma(const Profiler& profiler, double depth_m) {
   return profiler.sigma_base_m + profiler.sigma_per_m * depth_m * depth_m;
 }

@@ -37,6 +37,9 @@ Eigen::Vector3d CalcBeamDirection_S(const Profiler& profiler, int i);
 /// All beam directions, beam by beam.
 std::vector<Eigen::Vector3d> CalcBeamDirections_S(const Profiler& profiler);
 
+/// Where the camera stands in S, metres; at the emitter where it is not modelled.
+Eigen::Vector3d CalcCamera_S(const Profiler& profiler);
+
 /// Standard deviation of a range in metres, of a point at depth z (metres, along the z axis of S).
 double CalcRangeSigma(const Profiler& profiler, double depth_m);
 
@@ -48,6 +51,9 @@ struct Profile {
 
   bool operator==(const Profile&) const = default;
 };
+
+/// Mesher and voxelmap publish what has changed after so many stripes of a scan, and at its end.
+inline constexpr int kStripesPerDelta = 25;
 
 /// One profile in its place in the world: what mesher and voxelmap fold.
 struct Stripe {

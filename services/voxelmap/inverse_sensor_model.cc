@@ -56,7 +56,7 @@ StripeEvidence CalcStripeEvidence(const Profiler& profiler, const std::vector<Ei
   evidence.fans.resize(has_camera ? 2 : 1);
   for (FreeFan& fan : evidence.fans) fan.ends_W.clear();
   evidence.fans[0].p_WA = p_WS;
-  if (has_camera) evidence.fans[1].p_WA = stripe.X_WS * Eigen::Vector3d(0.0, profiler.camera_baseline_m, 0.0);
+  if (has_camera) evidence.fans[1].p_WA = stripe.X_WS * CalcCamera_S(profiler);
   for (size_t i = 0; i < stripe.ranges_m.size(); ++i) {
     const double range = stripe.ranges_m[i];
     const double depth = range * directions_S[i].z();
