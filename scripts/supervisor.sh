@@ -9,7 +9,7 @@ nbs_give_up_seconds=30         # … within this time end the run
 nbs_stop_seconds=10            # after a TERM; then KILL
 
 # note TEXT: a line in RUN/logs/supervisor.log.
-note() { printf '%(%F %T)T %s\n' -1 "$*" >>"$nbs_run/logs/supervisor.log" 2>/dev/null || true; }
+note() { printf '%(%F %T)T %s\n' -1 "$*" 2>/dev/null >>"$nbs_run/logs/supervisor.log" || true; }
 
 # start_service NAME: nbs-NAME in a session of its own (a Ctrl-C reaches only the supervisor), killed by the kernel should the supervisor itself be killed.
 # The reporter's lines are the terminal's, and it ends with the run; the others serve repair until they are stopped, and write to RUN/logs/NAME.log.

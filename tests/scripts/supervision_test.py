@@ -271,6 +271,13 @@ class Launch(ScriptTest):
         self.run_script("stop", "--run", run)
         self.assert_nothing_runs(run)
 
+    def test_run_folder_that_cannot_be_written_is_refused(self):
+        run = self.folder / "run"
+        (run / "logs/supervisor.log").mkdir(parents=True)
+        (run / "run.yaml").touch()
+        result = self.run_script("launch", "sim", "--run", run)
+        self.assertEqual((1, "", f"launch: cannot write to the run folder {run}\n"), result)
+
     def register_set(self, pid, run, namespace, age_s):
         """As bus.sh does, and locked as if it ran."""
         file = self.folder / "state/sets" / str(pid)
