@@ -1,32 +1,46 @@
 #include "common/geometry/mesh_delta.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
 namespace nbs {
 namespace {
 
-constexpr uint32_t kMaxSlots = 1u << 28;
+/// How many slots there are once a delta's elements are in.
+template <typename Element>
+size_t FindEnd(size_t end, const std::vector<Element>& elements) {
+  const size_t furthest = end + elements.size() + kMaxSlotGap;
+  for (const Element& element : elements) {
+    if (element.id >= kMaxSlots || element.id >= furthest)
+      throw std::invalid_argument("MeshReplica: slot number " + std::to_string(element.id) + " is out of range");
+    end = std::max<size_t>(end, element.id + 1);
+  }
+  return end;
+}
 
-void CheckSlot(uint32_t id) {
-  if (id >= kMaxSlots)
-    throw std::invalid_argument("MeshReplica: slot number " + std::to_string(id) + " is out of range");
+void CheckCorners(const std::vector<MeshTriangle>& triangles, size_t vertices) {
+  for (const MeshTriangle& t : triangles) {
+    if (MeshReplica::IsEmpty(t.vertices)) continue;
+    for (uint32_t v : t.vertices) {
+      if (v >= vertices) {
+        throw std::invalid_argument("MeshReplica: triangle " + std::to_string(t.id) + " names vertex " +
+                                    std::to_string(v) + ", which is not there");
+      }
+    }
+  }
 }
 
 }  // namespace
 
 void MeshReplica::Apply(const MeshDelta& delta) {
-  for (const MeshVertex& v : delta.vertices) {
-    CheckSlot(v.id);
-    if (v.id >= vertices_.size()) vertices_.resize(v.id + 1);
-    vertices_[v.id] = v;
-  }
-  for (const MeshTriangle& t : delta.triangles) {
-    CheckSlot(t.id);
-    for (uint32_t v : t.vertices) CheckSlot(v);
-    if (t.id >= triangles_.size()) triangles_.resize(t.id + 1);
-    triangles_[t.id] = t.vertices;
-  }
+  const size_t vertices = FindEnd(vertices_.size(), delta.vertices);
+  const size_t triangles = FindEnd(triangles_.size(), delta.triangles);
+  CheckCorners(delta.triangles, vertices);
+  vertices_.resize(vertices);
+  triangles_.resize(triangles);
+  for (const MeshVertex& v : delta.vertices) vertices_[v.id] = v;
+  for (const MeshTriangle& t : delta.triangles) triangles_[t.id] = t.vertices;
 }
 
 std::vector<uint32_t> MeshReplica::FindUsedVertices() const {

@@ -60,12 +60,22 @@ struct MeshScan {
   bool operator==(const MeshScan&) const = default;
 };
 
+/// No slot has this number or a higher one.
+inline constexpr uint32_t kMaxSlots = 1u << 28;
+
+/// Slots that a delta may leave out beyond those there are: vertices that came to nothing. More is a damaged message,
+/// which would take all memory.
+inline constexpr uint32_t kMaxSlotGap = 1u << 20;
+
 /// A copy of the mesher's mesh, kept up to date by its deltas.
 class MeshReplica {
  public:
   /// Applies one delta; deltas must come in the order in which they were published.
   ///
-  /// @throws std::invalid_argument if a slot number exceeds 2^28 (a damaged message).
+  /// @throws std::invalid_argument if the message is damaged, and changes nothing then: a slot number is not below
+  /// kMaxSlots, or lies further beyond the slots there are than the delta's own number of elements and kMaxSlotGap; or
+  /// a triangle that is not empty names a vertex slot that neither this delta nor an earlier one has filled or passed
+  /// by.
   void Apply(const MeshDelta& delta);
 
   /// By slot; a slot whose vertex has no measurements is empty.

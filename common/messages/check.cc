@@ -9,7 +9,7 @@
 namespace nbs {
 namespace {
 
-constexpr uint32_t kMaxSlots = 1u << 28;
+constexpr float kFurthest_m = 1000.0f;  // No cell is larger, and scan paths are laid along all of a mesh.
 
 bool IsCount(std::initializer_list<int64_t> values) {
   return std::all_of(values.begin(), values.end(), [](int64_t value) { return value >= 0; });
@@ -34,8 +34,9 @@ bool IsSound(const TrajectoryPoint& point) {
 }
 
 bool IsSound(const MeshVertex& v) {
-  return v.id < kMaxSlots && v.p_W.allFinite() && v.normal_W.allFinite() && std::isfinite(v.sigma_m) &&
-         v.sigma_m >= 0.0f && v.best_incidence_rad >= 0.0f && v.best_incidence_rad <= std::numbers::pi_v<float>;
+  return v.id < kMaxSlots && v.p_W.cwiseAbs().maxCoeff() <= kFurthest_m && v.p_W.allFinite() &&
+         v.normal_W.allFinite() && std::isfinite(v.sigma_m) && v.sigma_m >= 0.0f && v.best_incidence_rad >= 0.0f &&
+         v.best_incidence_rad <= std::numbers::pi_v<float>;
 }
 
 bool IsSound(const MeshTriangle& t) {
@@ -111,7 +112,7 @@ std::string Fault(const PlanTiming& t) {
 template <typename T>
 bool HasBadScan(const T& message) {
   if constexpr (requires { message.scan; }) {
-    return message.scan < 0;
+    return message.scan < 0 || message.scan > kMaxScans;
   } else {
     return false;
   }
@@ -123,7 +124,7 @@ std::string FindFault(const Message& message) {
   return std::visit(
       [](const auto& m) -> std::string {
         if (m.utime_us < 0) return "utime is negative";
-        if (HasBadScan(m)) return "the scan's number is negative";
+        if (HasBadScan(m)) return "the scan's number is negative or too high";
         return Fault(m);
       },
       message);

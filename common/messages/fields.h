@@ -178,6 +178,7 @@ void Fields(Wire& wire, Field<Wire, Plan> plan) {
   wire.template Integer<int32_t>(plan.scan);
   wire.Enum(plan.mode, kPlanModes);
   wire.Bool(plan.found);
+  wire.Bool(plan.stack_is_empty);
   wire.String(plan.reason);
   wire.template Integer<int64_t>(plan.unknown_cells);
   Fields<Wire>(wire, plan.chosen);

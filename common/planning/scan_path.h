@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -20,6 +21,9 @@ struct ScanPath {
 /// The same line with the sensor turned by half a turn about its viewing axis: the same light planes, their points in
 /// reverse order. A camera then stands on the other side of them.
 ScanPath RollPath(const ScanPath& path);
+
+/// A run has at most so many scans, numbered from 0; a mesh vertex keeps such a number in 16 bits.
+inline constexpr int kMaxScans = 10'000;
 
 /// Where a candidate comes from.
 enum class CandidateSource : uint8_t { kFirst = 0, kBoundary = 1, kHole = 2, kSphere = 3 };
@@ -79,6 +83,10 @@ struct Trajectory {
   std::vector<TrajectoryPoint> points;
 };
 
+/// The most points of a trajectory, each with so many joint values, that a plan with its chosen candidate has room for
+/// in one message (60,000 B): 379 of an arm with six joints, 546 without joints.
+constexpr size_t CalcMostPoints(size_t joints) { return 59'600 / (109 + 8 * joints); }
+
 /// The robot's state at one instant.
 struct RobotState {
   int64_t utime_us = 0;
@@ -112,19 +120,17 @@ struct PlanRequest {
   PlanMode mode = PlanMode::kFirst;
 };
 
-/// Part of Plan::reason when no candidate is left at all.
-inline constexpr std::string_view kStackIsEmpty = "the stack is empty";
-
 /// The planner's answer. All candidates, with verdicts, come before it on their own stream.
 struct Plan {
   int64_t utime_us = 0;
   int32_t scan = 0;
   PlanMode mode = PlanMode::kFirst;
   bool found = false;
-  std::string reason;         ///< Why nothing was found; empty when found.
-  int64_t unknown_cells = 0;  ///< Voxels that were never observed when the plan was made.
-  RatedCandidate chosen;      ///< Valid when found.
-  Trajectory trajectory;      ///< Valid when found.
+  bool stack_is_empty = false;  ///< Nothing was found because no candidate is left at all.
+  std::string reason;           ///< Why nothing was found, in words; empty when found.
+  int64_t unknown_cells = 0;    ///< Voxels that were never observed when the plan was made.
+  RatedCandidate chosen;        ///< Valid when found.
+  Trajectory trajectory;        ///< Valid when found.
 };
 
 /// Every candidate of one round, in parts that fit a datagram.

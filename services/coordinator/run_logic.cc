@@ -52,8 +52,7 @@ RunStep GiveUp(const RunSettings& settings, const RunLogicState& state, const Pl
       state.last_scan->completeness >= settings.completeness) {
     return Finish(state, state.scan, false, "completeness_reached", ExplainCompleteness(settings, *state.last_scan));
   }
-  const bool no_candidates = plan.reason.find(kStackIsEmpty) != std::string::npos;
-  const std::string end_reason = no_candidates ? "no_candidates" : "nothing_reachable";
+  const std::string end_reason = plan.stack_is_empty ? "no_candidates" : "nothing_reachable";
   if (!first && state.last_scan && state.last_scan->edges == 0) {
     return Finish(state, state.scan, true, end_reason, "No scan has seen any surface: does the first path look at it?");
   }

@@ -65,8 +65,8 @@ RunStep Begin(const RunSettings& settings);
 
 /// The planner's answer: found, its trajectory goes to the robot. Nothing found among boundaries: the same scan is
 /// asked for again among holes, or the run ends if the method has none. Nothing found elsewhere: the run ends with
-/// completeness_reached if the mesh is as complete as wanted, with no_candidates if the planner's reason contains
-/// kStackIsEmpty, otherwise with nothing_reachable. No first path, or no surface seen: the run fails. Where the end
+/// completeness_reached if the mesh is as complete as wanted, with no_candidates if the planner says that its stack is
+/// empty, otherwise with nothing_reachable. No first path, or no surface seen: the run fails. Where the end
 /// rule is kUnknownSettled the run ends before a scan that follows one which hardly changed the count of unknown
 /// voxels.
 ///

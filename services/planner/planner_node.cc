@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/runtime/apply_if_sound.h"
 #include "common/runtime/counter_random.h"
 #include "services/planner/motion_planning/map_clearance.h"
 
@@ -25,7 +26,7 @@ class Stopwatch {
   double start_s_;
 };
 
-/// Why no candidate was chosen, in words: how many of those that are left met which fate.
+/// Why no candidate was chosen, in words: how many of those that are left met which fate; empty if none is left.
 std::string Explain(const std::vector<RatedCandidate>& rated) {
   std::array<int, kVerdicts> counts{};
   for (const RatedCandidate& candidate : rated) ++counts.at(static_cast<size_t>(candidate.verdict));
@@ -36,7 +37,7 @@ std::string Explain(const std::vector<RatedCandidate>& rated) {
     if (counts[v] == 0) continue;
     reason += fmt::format("{}{} {}", reason.empty() ? "" : ", ", counts[v], ToString(static_cast<Verdict>(v)));
   }
-  return reason.empty() ? std::string(kStackIsEmpty) : reason;
+  return reason;
 }
 
 }  // namespace
@@ -65,12 +66,16 @@ void PlannerNode::Handle(const Message& message, Outbox& out) {
   if (const auto* request = std::get_if<PlanRequest>(&message)) {
     Answer(*request, out);
   } else if (const auto* mesh = std::get_if<MeshDelta>(&message)) {
-    mesh_.Apply(*mesh);
+    refused_mesh_ += ApplyIfSound(*mesh, mesh_) ? 0 : 1;
     if (mesh->end_of_scan) next_input_ = StreamOf<VoxelDelta>();
   } else if (const auto* voxels = std::get_if<VoxelDelta>(&message)) {
-    voxels_.Apply(*voxels);
+    refused_voxels_ += ApplyIfSound(*voxels, voxels_) ? 0 : 1;
     if (voxels->end_of_scan) next_input_ = StreamOf<PlanRequest>();
   }
+}
+
+std::vector<Node::Count> PlannerNode::Complaints() const {
+  return {{"refused_mesh", refused_mesh_}, {"refused_voxels", refused_voxels_}};
 }
 
 void PlannerNode::Answer(const PlanRequest& request, Outbox& out) {
@@ -100,6 +105,8 @@ void PlannerNode::Answer(const PlanRequest& request, Outbox& out) {
     next_input_ = StreamOf<MeshDelta>();
   } else {
     plan.reason = Explain(result.rated);
+    plan.stack_is_empty = plan.reason.empty();
+    if (plan.stack_is_empty) plan.reason = "the stack is empty";
   }
   out.push_back(CandidateSet{request.utime_us, request.scan, true, std::move(result.rated)});
   out.push_back(std::move(plan));

@@ -40,6 +40,9 @@ class PlannerNode : public Node {
   size_t NextInput() const override { return next_input_; }
   void Handle(const Message& message, Outbox& out) override;
 
+  /// Damaged deltas of mesh and voxels; they are left out.
+  std::vector<Count> Complaints() const override;
+
  private:
   void Answer(const PlanRequest& request, Outbox& out);
   void FoldNewestScan();
@@ -60,6 +63,8 @@ class PlannerNode : public Node {
   SurfacePrediction prediction_;
   CandidateSearcher searcher_;
   ScanSelection selection_;
+  int64_t refused_mesh_ = 0;
+  int64_t refused_voxels_ = 0;
   int32_t newest_scan_ = -1;     ///< Last scan planned.
   int32_t predicted_scan_ = -1;  ///< Last scan in the prediction.
   ScanPath newest_path_;

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "common/runtime/apply_if_sound.h"
+
 namespace nbs {
 namespace {
 
@@ -44,6 +46,10 @@ void ReporterNode::Handle(const Message& message, Outbox&) {
                  [this](const Execution& m) { Fold(m); }, [this](const MeshDelta& m) { Fold(m); },
                  [this](const VoxelDelta& m) { Fold(m); }, [this](const MeshScan& m) { Fold(m); }, [](const auto&) {}},
       message);
+}
+
+std::vector<Node::Count> ReporterNode::Complaints() const {
+  return {{"refused_mesh", refused_mesh_}, {"refused_voxels", refused_voxels_}};
 }
 
 void ReporterNode::Fold(const RunState& state) {
@@ -99,12 +105,12 @@ void ReporterNode::Fold(const Execution& execution) {
 }
 
 void ReporterNode::Fold(const MeshDelta& delta) {
-  mesh_.Apply(delta);
+  refused_mesh_ += ApplyIfSound(delta, mesh_) ? 0 : 1;
   if (delta.end_of_scan) next_input_ = StreamOf<VoxelDelta>();
 }
 
 void ReporterNode::Fold(const VoxelDelta& delta) {
-  voxels_.Apply(delta);
+  refused_voxels_ += ApplyIfSound(delta, voxels_) ? 0 : 1;
   if (delta.end_of_scan) next_input_ = StreamOf<MeshScan>();
 }
 

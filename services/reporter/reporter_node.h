@@ -29,6 +29,9 @@ class ReporterNode : public Node {
   size_t NextInput() const override { return next_input_; }
   void Handle(const Message& message, Outbox& out) override;
 
+  /// Damaged deltas of mesh and voxels; they are left out.
+  std::vector<Count> Complaints() const override;
+
   const RunRecord& record() const { return record_; }
   const MeshReplica& mesh() const { return mesh_; }
   const VoxelGrid& voxels() const { return voxels_; }
@@ -49,6 +52,8 @@ class ReporterNode : public Node {
   size_t next_input_;
   MeshReplica mesh_;
   VoxelGrid voxels_;
+  int64_t refused_mesh_ = 0;
+  int64_t refused_voxels_ = 0;
   RunRecord record_;
   ScanRecord current_;  ///< The scan under way, with the selection that led to it.
 };

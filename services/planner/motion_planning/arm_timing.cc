@@ -131,8 +131,8 @@ class Writer {
   double late_s_ = 0.0;  ///< How far the scan has fallen behind.
 };
 
-void WriteApproach(const ArmModel& model, const ArmTimingLimits& limits, std::span<const Joints> approach,
-                   Writer& writer) {
+void WriteApproach(const ArmModel& model, const ArmTimingLimits& limits, double piece_s,
+                   std::span<const Joints> approach, Writer& writer) {
   for (size_t k = 1; k < approach.size(); ++k) {
     const Joints& q_from = approach[k - 1];
     const Joints& q_to = approach[k];
@@ -140,7 +140,7 @@ void WriteApproach(const ArmModel& model, const ArmTimingLimits& limits, std::sp
     const Trapezoid profile = MakeTrapezoid(model, limits, q_from, q_to);
     const double start_s = writer.time_s();
     double last_s = 0.0;
-    for (const double time_s : profile.MakeRampTimes(limits.piece_s)) {
+    for (const double time_s : profile.MakeRampTimes(piece_s)) {
       if (time_s - last_s < 1e-5) continue;
       last_s = time_s;
       const bool end = profile.total_s() - time_s < 1e-9;
@@ -176,6 +176,18 @@ void WriteScan(const ArmTimingLimits& limits, std::span<const Joints> scan, doub
   }
 }
 
+/// @param piece_s  Longest piece of a ramp of the approach.
+Trajectory Write(const ArmModel& model, const Pose& X_WB, const ArmTimingLimits& limits, double piece_s,
+                 std::span<const Joints> approach, std::span<const Joints> scan, double length_m) {
+  Trajectory trajectory;
+  Writer writer(model, X_WB, limits, trajectory);
+  writer.Add(0.0, approach.front(), false);
+  WriteApproach(model, limits, piece_s, approach, writer);
+  writer.WaitFor(limits.flange.profile_period_us);
+  WriteScan(limits, scan, length_m, writer);
+  return trajectory;
+}
+
 }  // namespace
 
 double CalcJointTime(const ArmModel& model, const ArmTimingLimits& limits, const Joints& q_from, const Joints& q_to) {
@@ -185,12 +197,15 @@ double CalcJointTime(const ArmModel& model, const ArmTimingLimits& limits, const
 Trajectory MakeArmTrajectory(const ArmModel& model, const Pose& X_WB, const ArmTimingLimits& limits,
                              std::span<const Joints> approach, std::span<const Joints> scan, double length_m) {
   if (approach.empty() || scan.size() < 2) throw std::invalid_argument("MakeArmTrajectory: too few joint values");
-  Trajectory trajectory;
-  Writer writer(model, X_WB, limits, trajectory);
-  writer.Add(0.0, approach.front(), false);
-  WriteApproach(model, limits, approach, writer);
-  writer.WaitFor(limits.flange.profile_period_us);
-  WriteScan(limits, scan, length_m, writer);
+  const size_t most = CalcMostPoints(static_cast<size_t>(model.n()));
+  double piece_s = limits.piece_s;
+  Trajectory trajectory = Write(model, X_WB, limits, piece_s, approach, scan, length_m);
+  for (bool fewer = true; fewer && trajectory.points.size() > most;) {
+    piece_s *= 2.0;
+    Trajectory coarser = Write(model, X_WB, limits, piece_s, approach, scan, length_m);
+    fewer = coarser.points.size() < trajectory.points.size();
+    trajectory = std::move(coarser);
+  }
   return trajectory;
 }
 

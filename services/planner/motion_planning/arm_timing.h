@@ -26,6 +26,10 @@ struct ArmTimingLimits {
 /// and flange allow. The scan begins on a multiple of the profile period; the sensor speeds up and slows down within
 /// it.
 ///
+/// Where slow accelerations make more points than one message holds (CalcMostPoints), the ramps of the approach are cut
+/// into pieces of twice piece_s, four times, and so on, as far as needed: the way stays the same straight lines, and
+/// each piece keeps all limits. Too many corners make too many points all the same.
+///
 /// @param X_WB      The arm's base.
 /// @param approach  From the current joint values to scan.front(); at least the current ones.
 /// @param scan      Joint values at even fractions of the scan path, at least two.

@@ -64,7 +64,9 @@ MotionPlanner::Result MotionPlanner::Plan(const Clearance& clearance, const Robo
   CheckRigid(now.X_WS);
   CheckRigid(path.X_WS_start);
   CheckRigid(path.X_WS_end);
-  return backend_->Plan(clearance, now, path, seed);
+  Result result = backend_->Plan(clearance, now, path, seed);
+  if (result.trajectory.points.size() > CalcMostPoints(now.joints_rad.size())) return {Verdict::kNoMotion, path, {}};
+  return result;
 }
 
 }  // namespace nbs

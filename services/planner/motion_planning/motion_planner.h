@@ -67,7 +67,7 @@ class MotionPlanner {
   /// Plans from where the robot is to the scan path and along it.
   ///
   /// The path may be driven from either end, and with the sensor rolled by half a turn, which scans the same;
-  /// Result::path says how.
+  /// Result::path says how. A motion of more points than one message holds (CalcMostPoints) is none: kNoMotion.
   ///
   /// @param seed  Of the search, where one is needed.
   /// @throws std::invalid_argument if a pose is not rigid.

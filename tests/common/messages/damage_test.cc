@@ -107,6 +107,20 @@ TEST(Refusal, MoreJointsThanAnyArmHasAreNamed) {
   EXPECT_EQ(FindRefusal(trajectory), "a point of the trajectory is unsound");
 }
 
+TEST(Refusal, AScanThatNoRunHasIsNamed) {
+  PlanRequest request;
+  request.scan = kMaxScans;
+  EXPECT_EQ(FindRefusal(request), "");
+  ++request.scan;
+  EXPECT_EQ(FindRefusal(request), "the scan's number is negative or too high");
+}
+
+TEST(Refusal, AVertexKilometresAwayIsNamed) {
+  MeshDelta delta;
+  delta.vertices.push_back({.id = 0, .p_W = {1e4f, 0, 0}});
+  EXPECT_EQ(FindRefusal(delta), "a vertex is unsound");
+}
+
 TEST(Refusal, ANegativeTimeIsNamed) {
   PlanRequest request;
   request.utime_us = -1;

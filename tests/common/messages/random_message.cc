@@ -97,6 +97,7 @@ void Fill(Random& r, Plan& m) {
        Scan(r),
        Code<PlanMode>(r, kPlanModes),
        Flag(r),
+       Flag(r),
        Text(r),
        Integer(r, 0, 1 << 27),
        Rated(r),

@@ -33,8 +33,10 @@ TEST(Splitting, PiecesOfAMeshDeltaMakeTheSameMesh) {
     whole.end_of_scan = true;
     const auto pieces = SplitForBus(whole);
     ExpectPiecesFit(pieces);
+    // Random triangles name any slot of the first million.
     MeshReplica at_once;
-    MeshReplica by_pieces;
+    at_once.Apply({0, 0, false, {{.id = (1u << 20) - 1}}, {}});
+    MeshReplica by_pieces = at_once;
     at_once.Apply(whole);
     for (const Message& piece : pieces) {
       const auto& delta = std::get<MeshDelta>(piece);
@@ -45,6 +47,17 @@ TEST(Splitting, PiecesOfAMeshDeltaMakeTheSameMesh) {
     }
     EXPECT_EQ(by_pieces.vertices(), at_once.vertices());
     EXPECT_EQ(by_pieces.triangles(), at_once.triangles());
+  }
+}
+
+TEST(Splitting, APlanOfTheMostPointsIsOneMessage) {
+  for (const size_t joints : {0, 6, 8}) {
+    Plan plan;
+    plan.found = true;
+    plan.trajectory.points.assign(CalcMostPoints(joints), {0, Pose::Identity(), std::vector<double>(joints), false});
+    ExpectPiecesFit(SplitForBus(plan));
+    plan.trajectory.points.resize(plan.trajectory.points.size() + 5, plan.trajectory.points.front());
+    EXPECT_THROW(SplitForBus(plan), std::invalid_argument) << "as many as there is room for";
   }
 }
 

@@ -30,6 +30,13 @@ Plan MakePlan(int scan, PlanMode mode, bool found, std::string reason = {}) {
   return plan;
 }
 
+/// Nothing is left; the words say something else, since they decide nothing.
+Plan MakeEmptyPlan(int scan, PlanMode mode) {
+  Plan plan = MakePlan(scan, mode, false, "In other words.");
+  plan.stack_is_empty = true;
+  return plan;
+}
+
 MeshScan MakeMesh(int scan, double completeness, int64_t edges = 10'000) {
   MeshScan mesh;
   mesh.utime_us = 900;
@@ -78,9 +85,8 @@ TEST(RunLogic, NoBoundaryLeftAsksForTheSameScanAmongHoles) {
 TEST(RunLogic, NoBoundaryLeftEndsAMethodWithoutHoles) {
   RunSettings settings;
   settings.search = CandidateSearch::kBoundary;
-  const std::string reason = "Among boundaries " + std::string(kStackIsEmpty) + ".";
-  const RunStep step = Advance(settings, MakeState(Awaiting::kPlan, 3, PlanMode::kBoundary),
-                               MakePlan(3, PlanMode::kBoundary, false, reason));
+  const RunStep step =
+      Advance(settings, MakeState(Awaiting::kPlan, 3, PlanMode::kBoundary), MakeEmptyPlan(3, PlanMode::kBoundary));
   EXPECT_EQ(step.state.awaiting, Awaiting::kNothing);
   EXPECT_EQ(Find<RunState>(step).end_reason, "no_candidates");
   EXPECT_FALSE(Find<RunState>(step).failed);
@@ -89,12 +95,10 @@ TEST(RunLogic, NoBoundaryLeftEndsAMethodWithoutHoles) {
 TEST(RunLogic, NothingLeftOfACompleteMeshMeansThatItIsComplete) {
   RunLogicState state = MakeState(Awaiting::kPlan, 7, PlanMode::kHole);
   state.last_scan = MakeMesh(6, 0.99);
-  const std::string reason(kStackIsEmpty);
-  EXPECT_EQ(Find<RunState>(Advance(kSettings, state, MakePlan(7, PlanMode::kHole, false, reason))).end_reason,
-            "completeness_reached");
+  const Plan plan = MakeEmptyPlan(7, PlanMode::kHole);
+  EXPECT_EQ(Find<RunState>(Advance(kSettings, state, plan)).end_reason, "completeness_reached");
   state.last_scan = MakeMesh(6, 0.98);
-  EXPECT_EQ(Find<RunState>(Advance(kSettings, state, MakePlan(7, PlanMode::kHole, false, reason))).end_reason,
-            "no_candidates");
+  EXPECT_EQ(Find<RunState>(Advance(kSettings, state, plan)).end_reason, "no_candidates");
 }
 
 TEST(RunLogic, NoHoleReachableEndsTheRunWithThePlannersReason) {
@@ -108,6 +112,12 @@ TEST(RunLogic, NoHoleReachableEndsTheRunWithThePlannersReason) {
   EXPECT_FALSE(Find<RunState>(step).failed);
 }
 
+TEST(RunLogic, ThePlannersWordsDecideNothing) {
+  const Plan plan = MakePlan(7, PlanMode::kHole, false, "Blocked, but not that the stack is empty.");
+  const RunStep step = Advance(kSettings, MakeState(Awaiting::kPlan, 7, PlanMode::kHole), plan);
+  EXPECT_EQ(Find<RunState>(step).end_reason, "nothing_reachable");
+}
+
 TEST(RunLogic, AFirstPathThatCannotBeReachedFailsTheRun) {
   const RunStep step = Advance(kSettings, Begin(kSettings).state, MakePlan(0, PlanMode::kFirst, false, "Blocked."));
   EXPECT_TRUE(Find<RunState>(step).failed);
@@ -118,7 +128,7 @@ TEST(RunLogic, AFirstPathThatCannotBeReachedFailsTheRun) {
 TEST(RunLogic, ARunThatHasSeenNothingFails) {
   RunLogicState state = MakeState(Awaiting::kPlan, 1, PlanMode::kHole);
   state.last_scan = MeshScan{};
-  const Plan plan = MakePlan(1, PlanMode::kHole, false, std::string(kStackIsEmpty));
+  const Plan plan = MakeEmptyPlan(1, PlanMode::kHole);
   EXPECT_TRUE(Find<RunState>(Advance(kSettings, state, plan)).failed);
   state.last_scan->edges = 3;
   EXPECT_FALSE(Find<RunState>(Advance(kSettings, state, plan)).failed);

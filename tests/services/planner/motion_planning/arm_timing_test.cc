@@ -29,8 +29,8 @@ class ArmTiming : public testing::Test {
                                    MakeRandomJoints(model_, 1, 2)};
 };
 
-TEST_F(ArmTiming, KeepsSpeedsAndAccelerationsOfAllJoints) {
-  const std::vector<TrajectoryPoint> points = Make(approach_).points;
+/// Speeds and accelerations of all joints, and the flange's speed.
+void ExpectKept(const ArmTimingLimits& limits, const std::vector<TrajectoryPoint>& points) {
   Joints speed_before = Joints::Zero(6);
   double duration_before = 0.0;
   double fastest = 0.0;
@@ -39,19 +39,31 @@ TEST_F(ArmTiming, KeepsSpeedsAndAccelerationsOfAllJoints) {
     ASSERT_GT(duration_s, 0.0);
     for (int k = 0; k < 6; ++k) {
       const double speed = (points[i].joints_rad[k] - points[i - 1].joints_rad[k]) / duration_s;
-      EXPECT_LE(std::abs(speed), limits_.rad_per_s[k] * 1.001);
+      EXPECT_LE(std::abs(speed), limits.rad_per_s[k] * 1.001);
       if (!points[i - 1].scanning) {
         EXPECT_LE(std::abs(speed - speed_before[k]) / (0.5 * (duration_s + duration_before)),
-                  limits_.rad_per_s2[k] * 1.01)
+                  limits.rad_per_s2[k] * 1.01)
             << i;
       }
       speed_before[k] = speed;
-      fastest = std::max(fastest, std::abs(speed) / limits_.rad_per_s[k]);
+      fastest = std::max(fastest, std::abs(speed) / limits.rad_per_s[k]);
     }
     duration_before = duration_s;
     EXPECT_LE((points[i].X_WF.translation() - points[i - 1].X_WF.translation()).norm() / duration_s, 0.5 * 1.01);
   }
   EXPECT_GT(fastest, 0.1);
+}
+
+TEST_F(ArmTiming, KeepsSpeedsAndAccelerationsOfAllJoints) { ExpectKept(limits_, Make(approach_).points); }
+
+TEST_F(ArmTiming, SlowAccelerationsOnAWayOfManyLegsKeepTheLimitsInOneMessage) {
+  limits_.rad_per_s2.assign(6, 0.5);
+  std::vector<Joints> way;
+  for (uint64_t k = 0; k < 9; ++k) way.push_back(MakeRandomJoints(model_, 2, k));
+  const std::vector<TrajectoryPoint> points = Make(way).points;
+  EXPECT_LE(points.size(), CalcMostPoints(6));
+  EXPECT_GT(points.size(), CalcMostPoints(6) / 3) << "no coarser than needed";
+  ExpectKept(limits_, points);
 }
 
 TEST_F(ArmTiming, PosesBelongToTheirJoints) {
