@@ -1,5 +1,4 @@
-// nbs-reporter: follows a run on the bus and prints a line per scan; with --offline, writes what the run leaves from
-// the histories in its folder.
+// nbs-reporter: follows a run, a line per scan; with --offline, writes what the run leaves, from its histories.
 
 #include <algorithm>
 #include <iostream>
@@ -15,7 +14,6 @@
 #include "services/reporter/truth.h"
 
 namespace {
-
 /// Exit code 0 if the outputs are written, whatever the end of the run; 1 on bad input; 2 otherwise.
 int WriteOffline(const std::filesystem::path& run_folder) {
   try {
