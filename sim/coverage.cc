@@ -13,9 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kDirections = 256;
-/// Lines of sight start this far off the surface.
-constexpr double kSurfaceSkip_m = 1e-4;
 /// No vertex of a reconstruction lies farther from the truth.
 constexpr double kFar_m = 10.0;
 
@@ -28,14 +25,14 @@ CoverageOracle::CoverageOracle(const TriangleMesh& truth_W, const CoverageSettin
 
 void CoverageOracle::FindObservable() {
   observable_.assign(samples_.size(), 0);
-  std::vector<Vector3d> directions = MakeSphereDirections(kDirections);
+  std::vector<Vector3d> directions = MakeSphereDirections(kSightDirections);
   const double min_cosine = std::cos(settings_.profiler.max_incidence_rad);
   const double depth = settings_.profiler.min_depth_m;
   const double lowest = settings_.table_z_m.value_or(-std::numeric_limits<double>::infinity());
   std::vector<size_t> open(samples_.size());
   for (size_t i = 0; i < open.size(); ++i) open[i] = i;
   // First along the normal itself, which settles nearly all, then the fixed set for those that are left.
-  for (int d = -1; d < kDirections && !open.empty(); ++d) {
+  for (int d = -1; d < kSightDirections && !open.empty(); ++d) {
     std::vector<TriangleScene::Segment> sights;
     std::vector<size_t> tried;
     for (size_t i : open) {

@@ -11,6 +11,9 @@
 
 namespace nbs {
 
+/// From so many directions, even over the sphere, and along the normal it is asked whether a point can be seen.
+inline constexpr int kSightDirections = 256;
+
 struct CoverageSettings {
   int samples = 100000;
   double max_distance_m = 0.002;              ///< Between a sample and its partner in the reconstruction.

@@ -14,9 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kDirections = 256;
-/// Lines of sight start this far off the surface.
-constexpr double kSurfaceSkip_m = 1e-4;
 /// Turns about the line of sight that are tried for a body that is not round about it.
 constexpr int kRolls = 8;
 
@@ -34,7 +31,7 @@ std::string_view ToString(Missing kind) {
 
 RemainderExplainer::RemainderExplainer(const TriangleMesh& truth_W, const CoverageOracle& oracle,
                                        const RemainderSettings& settings)
-    : settings_(settings), oracle_(&oracle), truth_W_(truth_W), directions_W_(MakeSphereDirections(kDirections)) {}
+    : settings_(settings), oracle_(&oracle), truth_W_(truth_W), directions_W_(MakeSphereDirections(kSightDirections)) {}
 
 bool RemainderExplainer::IsFree(const SurfaceSample& sample, const Vector3d& direction_W, double length_m) const {
   const TriangleScene::Segment sight{sample.p_W, sample.p_W + length_m * direction_W};
@@ -75,7 +72,7 @@ Missing RemainderExplainer::Classify(const SurfaceSample& sample) const {
   const double min_cosine = std::cos(profiler.max_incidence_rad);
   Missing found = Missing::kOccluded;
   const auto improve = [&found](Missing kind) { found = std::min(found, kind); };
-  for (int d = -1; d < kDirections && found != Missing::kOpen; ++d) {
+  for (int d = -1; d < kSightDirections && found != Missing::kOpen; ++d) {
     const Vector3d direction_W = d < 0 ? sample.normal_W : directions_W_[d];
     if (direction_W.dot(sample.normal_W) < min_cosine) continue;
     if (!IsFree(sample, direction_W, settings_.narrow_m)) continue;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "common/kinematics/urdf_reader.h"
+#include "common/config/cell_arm.h"
 
 namespace nbs {
 namespace {
@@ -23,8 +23,7 @@ Capsule Move(const Pose& X_WL, const Capsule& c) { return {X_WL * c.p_A, X_WL * 
 
 RobotBody::RobotBody(const RunConfig& config) : tool_F_(MakeTool(config.cell)) {
   if (!config.cell.arm) return;
-  const ArmConfig& arm = *config.cell.arm;
-  arm_ = ReadArm(arm.urdf, arm.base_link, arm.flange_link);
+  arm_ = ReadCellArm(config.cell);
   body_.emplace(*arm_, tool_F_);
   X_WB_ = CalcBasePose(config);
 }

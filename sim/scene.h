@@ -12,6 +12,9 @@
 
 namespace nbs {
 
+/// Lines of sight from or to a point of a surface stop this far off it.
+inline constexpr double kSurfaceSkip_m = 1e-4;
+
 /// A half-line in W.
 struct Ray {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();           ///< Origin, metres.

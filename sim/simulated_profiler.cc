@@ -6,12 +6,7 @@
 #include "common/runtime/counter_random.h"
 
 namespace nbs {
-namespace {
-
-/// The camera's line of sight starts this far off the surface.
-constexpr double kSurfaceSkip_m = 1e-4;
-
-}  // namespace
+namespace {}  // namespace
 
 SimulatedProfiler::SimulatedProfiler(const TriangleScene& scene_W, const Profiler& profiler, uint64_t seed,
                                      uint32_t dark_from)
@@ -26,7 +21,7 @@ std::vector<uint8_t> SimulatedProfiler::FindReturns(const Pose& X_WS, const std:
                                                     const std::vector<RayHit>& hits) const {
   std::vector<uint8_t> returns(rays.size(), 0);
   std::vector<TriangleScene::Segment> sights(rays.size());
-  const Eigen::Vector3d p_WC = X_WS * Eigen::Vector3d(0.0, profiler_.camera_baseline_m, 0.0);
+  const Eigen::Vector3d p_WC = X_WS * CalcCamera_S(profiler_);
   const bool has_camera = profiler_.HasCamera();
   for (size_t i = 0; i < rays.size(); ++i) {
     const RayHit& hit = hits[i];

@@ -15,8 +15,6 @@ namespace nbs {
 namespace {
 
 constexpr int kMaxCellsPerAxis = 1 << 20;
-constexpr int64_t kMaxCells = 1'000'000'000;
-constexpr int kMaxScans = 100000;
 
 GridShape ReadGrid(const StrictReader& run, double resolution_m) {
   const YamlTree* tree = run.Find("grid");
@@ -35,8 +33,8 @@ GridShape ReadGrid(const StrictReader& run, double resolution_m) {
     if (std::abs(cells - std::round(cells)) > 1e-6)
       reader.Fail("origin_m", "`origin_m` must be a multiple of `resolution_m` on each axis");
   }
-  if (static_cast<int64_t>(grid.size.x()) * grid.size.y() > kMaxCells || grid.cells() > kMaxCells) {
-    reader.Fail("size", "`size` must not come to more than " + std::to_string(kMaxCells) + " voxels");
+  if (static_cast<int64_t>(grid.size.x()) * grid.size.y() > kMaxGridCells || grid.cells() > kMaxGridCells) {
+    reader.Fail("size", "`size` must not come to more than " + std::to_string(kMaxGridCells) + " voxels");
   }
   return grid;
 }

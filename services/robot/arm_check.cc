@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "common/kinematics/urdf_reader.h"
-#include "common/runtime/error.h"
+#include "common/config/cell_arm.h"
 
 namespace nbs {
 namespace {
@@ -79,11 +78,7 @@ std::string FindRateFault(const Trajectory& trajectory, const ArmLimits& limits)
 ArmLimits MakeArmLimits(const RunConfig& config) {
   const ArmConfig& arm = config.cell.arm.value();
   ArmLimits limits;
-  limits.model = ReadArm(arm.urdf, arm.base_link, arm.flange_link);
-  if (arm.start_rad.size() != limits.model.joints.size()) {
-    throw ConfigError(fmt::format("The cell {} gives {} joint values, but {} has {} moving joints.", config.cell.name,
-                                  arm.start_rad.size(), arm.urdf.string(), limits.model.joints.size()));
-  }
+  limits.model = ReadCellArm(config.cell);
   limits.X_WB = CalcBasePose(config);
   limits.max_rad_per_s2 = arm.max_rad_per_s2;
   limits.flange = MakeRobotLimits(config.cell);

@@ -9,8 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Lines of sight start this far off the surface.
-constexpr double kSurfaceSkip_m = 1e-4;
 constexpr double kSameOrientation_rad = 1e-6;
 /// A path that moves less than this through its light plane has no extent to see.
 constexpr double kNoAdvance_m = 1e-9;

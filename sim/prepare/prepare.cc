@@ -9,8 +9,8 @@
 #include <span>
 #include <system_error>
 
+#include "common/config/cell_arm.h"
 #include "common/config/suggestion.h"
-#include "common/kinematics/urdf_reader.h"
 #include "common/planning/method.h"
 #include "common/runtime/counter_random.h"
 #include "common/runtime/error.h"
@@ -48,9 +48,9 @@ void CheckNumbers(const RunRequest& request) {
     throw ConfigError("The completeness must lie above 0 and not above 1 (0.9875 is 98.75 %), not " +
                       std::to_string(request.completeness) + ".");
   }
-  if (request.max_scans < 1 || request.max_scans > 10000) {
-    throw ConfigError("The number of scans must lie between 1 and 10000, not " + std::to_string(request.max_scans) +
-                      ".");
+  if (request.max_scans < 1 || request.max_scans > kMaxScans) {
+    throw ConfigError(
+        fmt::format("The number of scans must lie between 1 and {}, not {}.", kMaxScans, request.max_scans));
   }
 }
 
@@ -196,7 +196,7 @@ RunConfig PrepareRun(const RunRequest& request) {
   config.cell = ReadCellConfig(FindCellFile(request));
   ResolvePlacement(FindObjectBox(request, config), config);
   CheckMemory(config.grid, request.memory_bytes);
-  if (config.cell.arm) (void)ReadArm(config.cell.arm->urdf, config.cell.arm->base_link, config.cell.arm->flange_link);
+  if (config.cell.arm) (void)ReadCellArm(config.cell);
   config.run_id = MakeRunId(config.name);
   MakeFolders(config.folder);
   if (config.cell.arm) KeepUrdf(config);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "common/kinematics/inverse_kinematics.h"
+#include "common/runtime/error.h"
 #include "sim/pose_error.h"
 #include "tests/sim/shapes.h"
 
@@ -181,6 +182,11 @@ TEST_F(ArmAudit, ArmThatIsDrivenThroughTheObjectTouchesItWithTheSensorFirst) {
   EXPECT_GT(audit.contacts, 5);
   ASSERT_TRUE(audit.of(MotionFault::kContactObject).first);
   EXPECT_EQ(audit.of(MotionFault::kContactObject).first->body, "sensor");
+}
+
+TEST_F(ArmAudit, CellThatStartsWithTooFewJointsIsRefused) {
+  config_.cell.arm->start_rad.pop_back();
+  EXPECT_THROW(MotionAuditor(MakeSphere(0.1f, 3), config_), ConfigError);
 }
 
 TEST_F(ArmAudit, StateWithAnotherNumberOfJointsIsRefusedAndNotRead) {

@@ -180,6 +180,8 @@ TEST_F(Prepare, WrongValuesAreRefusedByName) {
   request_.completeness = 0.9;
   request_.max_scans = 0;
   EXPECT_THAT(Refusal(), HasSubstr("number of scans"));
+  request_.max_scans = 10001;
+  EXPECT_THAT(Refusal(), HasSubstr("number of scans must lie between 1 and 10000, not 10001"));
 }
 
 }  // namespace

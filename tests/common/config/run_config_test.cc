@@ -165,7 +165,9 @@ TEST(RunConfig, SeedBeyondItsRangeIsRefused) {
 
 TEST(RunConfig, NoScansAtAllIsRefused) {
   EXPECT_EQ(ErrorWith("max_scans: 30", "max_scans: 0"),
-            "run.yaml:11: `max_scans` must be a whole number from 1 to 100000, not 0");
+            "run.yaml:11: `max_scans` must be a whole number from 1 to 10000, not 0");
+  EXPECT_EQ(ErrorWith("max_scans: 30", "max_scans: 10001"),
+            "run.yaml:11: `max_scans` must be a whole number from 1 to 10000, not 10001");
 }
 
 TEST(RunConfig, CompletenessAboveOneIsRefused) {
@@ -176,6 +178,13 @@ TEST(RunConfig, CompletenessAboveOneIsRefused) {
 TEST(RunConfig, GridOfAnotherResolutionIsRefused) {
   EXPECT_EQ(ErrorWith("resolution_m: 0.003\n  size", "resolution_m: 0.004\n  size"),
             "run.yaml:47: `resolution_m` of the grid (0.004) must be that of the cell (0.003)");
+}
+
+TEST(RunConfig, MoreVoxelsThanAnyGridHasAreRefused) {
+  const Eigen::Vector3i size = MakeConfig(MakeTestFolder()).grid.size;
+  const std::string written = "size: [" + std::to_string(size.x()) + ", " + std::to_string(size.y()) + ", ";
+  EXPECT_EQ(ErrorWith(written + std::to_string(size.z()), "size: [1024, 1024, 129"),
+            "run.yaml:48: `size` must not come to more than 134217728 voxels");
 }
 
 }  // namespace
