@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "common/kinematics/urdf_reader.h"
+#include "common/config/cell_arm.h"
 #include "common/runtime/error.h"
 #include "services/planner/motion_planning/joint_search.h"
 
@@ -13,12 +13,7 @@ namespace {
 
 ArmSetup MakeSetup(const RunConfig& config) {
   const ArmConfig& arm = config.cell.arm.value();
-  const ArmModel model = ReadArm(arm.urdf, arm.base_link, arm.flange_link);
-  if (arm.start_rad.size() != model.joints.size()) {
-    throw ConfigError("The cell " + config.cell.name + " gives " + std::to_string(arm.start_rad.size()) +
-                      " joint values, but " + arm.urdf.string() + " has " + std::to_string(model.joints.size()) +
-                      " moving joints.");
-  }
+  const ArmModel model = ReadCellArm(config.cell);
   const bool analytic = arm.inverse_kinematics == "analytic";
   if (analytic) {
     if (const auto obstacle = SphericalWristIk::FindObstacle(model))
@@ -144,8 +139,11 @@ MotionResult ArmMotion::Plan(const Clearance& clearance, const RobotPosture& now
   if (way.empty()) return {Verdict::kNoMotion, path, {}};
   way.insert(way.begin(), q_now);
   const ArmDrive& drive = sorted[chosen];
-  return {reach.verdict, drive.path,
-          MakeArmTrajectory(arm_.ik.model(), arm_.collision.X_WB(), limits_, way, drive.q, drive.path.length_m())};
+  Trajectory trajectory =
+      MakeArmTrajectory(arm_.ik.model(), arm_.collision.X_WB(), limits_, way, drive.q, drive.path.length_m());
+  if (CalcAccelerationShare(trajectory, limits_.rad_per_s2) > kMostAccelerationShare)
+    return {Verdict::kSpeed, path, {}};
+  return {reach.verdict, drive.path, std::move(trajectory)};
 }
 
 std::vector<Joints> ArmMotion::FindWay(const Clearance& clearance, const Joints& q_from,

@@ -188,15 +188,9 @@ Trajectory Write(const ArmModel& model, const Pose& X_WB, const ArmTimingLimits&
   return trajectory;
 }
 
-}  // namespace
-
-double CalcJointTime(const ArmModel& model, const ArmTimingLimits& limits, const Joints& q_from, const Joints& q_to) {
-  return q_from == q_to ? 0.0 : MakeTrapezoid(model, limits, q_from, q_to).total_s();
-}
-
-Trajectory MakeArmTrajectory(const ArmModel& model, const Pose& X_WB, const ArmTimingLimits& limits,
+/// With pieces as short as the message allows.
+Trajectory WriteInOneMessage(const ArmModel& model, const Pose& X_WB, const ArmTimingLimits& limits,
                              std::span<const Joints> approach, std::span<const Joints> scan, double length_m) {
-  if (approach.empty() || scan.size() < 2) throw std::invalid_argument("MakeArmTrajectory: too few joint values");
   const size_t most = CalcMostPoints(static_cast<size_t>(model.n()));
   double piece_s = limits.piece_s;
   Trajectory trajectory = Write(model, X_WB, limits, piece_s, approach, scan, length_m);
@@ -205,6 +199,46 @@ Trajectory MakeArmTrajectory(const ArmModel& model, const Pose& X_WB, const ArmT
     Trajectory coarser = Write(model, X_WB, limits, piece_s, approach, scan, length_m);
     fewer = coarser.points.size() < trajectory.points.size();
     trajectory = std::move(coarser);
+  }
+  return trajectory;
+}
+
+}  // namespace
+
+double CalcAccelerationShare(const Trajectory& trajectory, std::span<const double> rad_per_s2) {
+  const std::vector<TrajectoryPoint>& points = trajectory.points;
+  std::vector<double> speed_before(rad_per_s2.size(), 0.0);
+  double duration_before_s = 0.0, largest = 0.0;
+  for (size_t i = 1; i <= points.size(); ++i) {
+    const bool moves = i < points.size();
+    const double duration_s = moves ? 1e-6 * static_cast<double>(points[i].time_us - points[i - 1].time_us) : 0.0;
+    const double change_s = 0.5 * (duration_s + duration_before_s);
+    for (size_t k = 0; k < rad_per_s2.size(); ++k) {
+      const double speed = moves ? (points[i].joints_rad[k] - points[i - 1].joints_rad[k]) / duration_s : 0.0;
+      if (change_s > 0.0) largest = std::max(largest, std::abs(speed - speed_before[k]) / (change_s * rad_per_s2[k]));
+      speed_before[k] = speed;
+    }
+    duration_before_s = duration_s;
+  }
+  return largest;
+}
+
+double CalcJointTime(const ArmModel& model, const ArmTimingLimits& limits, const Joints& q_from, const Joints& q_to) {
+  return q_from == q_to ? 0.0 : MakeTrapezoid(model, limits, q_from, q_to).total_s();
+}
+
+Trajectory MakeArmTrajectory(const ArmModel& model, const Pose& X_WB, const ArmTimingLimits& limits,
+                             std::span<const Joints> approach, std::span<const Joints> scan, double length_m) {
+  if (approach.empty() || scan.size() < 2) throw std::invalid_argument("MakeArmTrajectory: too few joint values");
+  constexpr int kLongerRamps = 2, kSlowerScans = 6;
+  ArmTimingLimits eased = limits;
+  Trajectory trajectory = WriteInOneMessage(model, X_WB, eased, approach, scan, length_m);
+  for (int k = 0; k < kLongerRamps + kSlowerScans; ++k) {
+    const double share = CalcAccelerationShare(trajectory, limits.rad_per_s2);
+    if (share <= kMostAccelerationShare) break;
+    eased.scan_m_per_s2 /= share;
+    if (k >= kLongerRamps) eased.flange.scan_m_per_s /= std::sqrt(share);
+    trajectory = WriteInOneMessage(model, X_WB, eased, approach, scan, length_m);
   }
   return trajectory;
 }

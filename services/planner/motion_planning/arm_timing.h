@@ -30,6 +30,9 @@ struct ArmTimingLimits {
 /// into pieces of twice piece_s, four times, and so on, as far as needed: the way stays the same straight lines, and
 /// each piece keeps all limits. Too many corners make too many points all the same.
 ///
+/// Near a singularity a joint turns fast although the sensor creeps: where it would have to gather speed too fast, the
+/// ramps of the scan are made longer, and if that does not do, the scan slower.
+///
 /// @param X_WB      The arm's base.
 /// @param approach  From the current joint values to scan.front(); at least the current ones.
 /// @param scan      Joint values at even fractions of the scan path, at least two.
@@ -37,6 +40,13 @@ struct ArmTimingLimits {
 /// @returns A trajectory with joints, flange poses that belong to them, utime_us and scan 0.
 Trajectory MakeArmTrajectory(const ArmModel& model, const Pose& X_WB, const ArmTimingLimits& limits,
                              std::span<const Joints> approach, std::span<const Joints> scan, double length_m);
+
+/// The largest share of its limit that the acceleration of a joint takes, from point to point and at either end; the
+/// robot refuses what is above 1.05.
+double CalcAccelerationShare(const Trajectory& trajectory, std::span<const double> rad_per_s2);
+
+/// What a trajectory may take of it.
+constexpr double kMostAccelerationShare = 1.04;
 
 /// Time of a straight line in joint space at the limits of speed and acceleration, from rest to rest, seconds.
 double CalcJointTime(const ArmModel& model, const ArmTimingLimits& limits, const Joints& q_from, const Joints& q_to);

@@ -30,7 +30,7 @@ class ArmTiming : public testing::Test {
 };
 
 /// Speeds and accelerations of all joints, and the flange's speed.
-void ExpectKept(const ArmTimingLimits& limits, const std::vector<TrajectoryPoint>& points) {
+void ExpectKept(const ArmTimingLimits& limits, const std::vector<TrajectoryPoint>& points, bool in_the_scan = false) {
   Joints speed_before = Joints::Zero(6);
   double duration_before = 0.0;
   double fastest = 0.0;
@@ -40,9 +40,9 @@ void ExpectKept(const ArmTimingLimits& limits, const std::vector<TrajectoryPoint
     for (int k = 0; k < 6; ++k) {
       const double speed = (points[i].joints_rad[k] - points[i - 1].joints_rad[k]) / duration_s;
       EXPECT_LE(std::abs(speed), limits.rad_per_s[k] * 1.001);
-      if (!points[i - 1].scanning) {
+      if (in_the_scan || !points[i - 1].scanning) {
         EXPECT_LE(std::abs(speed - speed_before[k]) / (0.5 * (duration_s + duration_before)),
-                  limits.rad_per_s2[k] * 1.01)
+                  limits.rad_per_s2[k] * (points[i - 1].scanning ? 1.04 : 1.01))
             << i;
       }
       speed_before[k] = speed;
@@ -55,6 +55,26 @@ void ExpectKept(const ArmTimingLimits& limits, const std::vector<TrajectoryPoint
 }
 
 TEST_F(ArmTiming, KeepsSpeedsAndAccelerationsOfAllJoints) { ExpectKept(limits_, Make(approach_).points); }
+
+TEST_F(ArmTiming, AJointThatTurnsFastFromTheStartOfAScanGathersItsSpeedWithinItsLimit) {
+  // Beside the wrist's singularity, where joints 4 and 6 turn against each other: 45 rad/m at first, 11 rad/s2 on the
+  // usual ramp.
+  approach_.back()[4] = 0.005;
+  std::vector<Joints> scan = {approach_.back()};
+  for (int k = 1; k <= 20; ++k)
+    scan.push_back(scan.back() + Joints::Constant(6, 0.002) +
+                   std::pow(0.7, k) * 0.64 * (Joints::Unit(6, 3) - Joints::Unit(6, 5)));
+  const auto make = [&](const ArmTimingLimits& limits) {
+    return MakeArmTrajectory(model_, Pose::Identity(), limits, approach_, scan, 0.2);
+  };
+  const Trajectory trajectory = make(limits_);
+  ExpectKept(limits_, trajectory.points, true);
+  EXPECT_LE(CalcAccelerationShare(trajectory, limits_.rad_per_s2), kMostAccelerationShare);
+  ArmTimingLimits strong = limits_;
+  strong.rad_per_s2[3] = 1e3;
+  EXPECT_GT(CalcAccelerationShare(make(strong), limits_.rad_per_s2), 1.1);
+  EXPECT_GT(trajectory.points.back().time_us, make(strong).points.back().time_us);
+}
 
 TEST_F(ArmTiming, SlowAccelerationsOnAWayOfManyLegsKeepTheLimitsInOneMessage) {
   limits_.rad_per_s2.assign(6, 0.5);
