@@ -239,7 +239,6 @@ std::vector<uint8_t> MeshRenderer::FindHidden(const std::vector<Vector3d>& point
 
 Projection::Projection(const View& view, const Eigen::AlignedBox3d& box_W) {
   const Camera camera = MakeCamera(view, view.frame_W.value_or(box_W));
-  forward_W_ = camera.forward;
   right_W_ = camera.right;
   down_W_ = -camera.up;
   corner_W_ = camera.corner_W;
@@ -248,15 +247,6 @@ Projection::Projection(const View& view, const Eigen::AlignedBox3d& box_W) {
 
 Eigen::Vector2d Projection::Project(const Vector3d& p_W) const {
   return Eigen::Vector2d(right_W_.dot(p_W - corner_W_), down_W_.dot(p_W - corner_W_)) / pixel_m_;
-}
-
-std::vector<Picture> MeshRenderer::RenderFourSides(View view) const {
-  std::vector<Picture> pictures;
-  for (int side = 0; side < 4; ++side) {
-    view.azimuth_rad = side * 0.5 * std::numbers::pi;
-    pictures.push_back(Render(view));
-  }
-  return pictures;
 }
 
 }  // namespace nbs

@@ -38,11 +38,8 @@ class Projection {
 
   Eigen::Vector2d Project(const Eigen::Vector3d& p_W) const;
 
-  /// Direction of the view.
-  const Eigen::Vector3d& forward_W() const { return forward_W_; }
-
  private:
-  Eigen::Vector3d forward_W_, right_W_, down_W_, corner_W_;
+  Eigen::Vector3d right_W_, down_W_, corner_W_;
   double pixel_m_;
 };
 
@@ -57,12 +54,6 @@ class MeshRenderer {
 
   /// For each point whether the mesh hides it from the view.
   std::vector<uint8_t> FindHidden(const std::vector<Eigen::Vector3d>& points_W, const View& view) const;
-
-  /// For each vertex, 0 hidden to 1 open to all sides.
-  const std::vector<float>& openness() const { return surface_.openness; }
-
-  /// Front, left, back and right (azimuth 0, 90, 180, 270 degrees), the rest as in `view`.
-  std::vector<Picture> RenderFourSides(View view) const;
 
  private:
   void CalcOpenness();

@@ -1,7 +1,6 @@
 #include "common/bus/service_main.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <cstdlib>
 #include <optional>
 
@@ -9,8 +8,7 @@
 #include "common/bus/lossy_transport.h"
 #include "common/bus/service_runner.h"
 #include "common/bus/stop_signal.h"
-#include "common/runtime/error.h"
-#include "common/runtime/run_failure.h"
+#include "common/runtime/report_failure.h"
 
 namespace nbs {
 namespace {
@@ -21,12 +19,14 @@ struct ServiceOptions {
   std::vector<std::string> without;
   bool exit_when_finished = false;
   bool check = false;
+  bool offline = false;
   double drop = 0.0;
   uint64_t drop_seed = 1;
 };
 
 /// Reads the command line; returns an exit code if the process is to end here.
-std::optional<int> ReadOptions(const std::string& service, int argc, char** argv, ServiceOptions& options) {
+std::optional<int> ReadOptions(const std::string& service, int argc, char** argv, bool can_offline,
+                               ServiceOptions& options) {
   CLI::App app{"nbs-" + service + ": one service of a next-best-scan run. See services/" + service + "/README.md."};
   app.add_option("--run", options.run_folder, "Run folder; run.yaml in it tells what to do")->required();
   app.add_option("--lcm-url", options.lcm_url, "Bus to join (default: LCM_DEFAULT_URL)");
@@ -36,6 +36,8 @@ std::optional<int> ReadOptions(const std::string& service, int argc, char** argv
   app.add_flag("--exit-when-finished", options.exit_when_finished,
                "End once all is done, instead of serving repair until stopped");
   app.add_flag("--check", options.check, "Only check that the run can begin, and end");
+  if (can_offline)
+    app.add_flag("--offline", options.offline, "Write what the run leaves, from the histories in its folder, and end");
   app.add_option("--drop", options.drop, "Test only: share of datagrams to lose, 0 to 1")->check(CLI::Range(0.0, 1.0));
   app.add_option("--drop-seed", options.drop_seed, "Test only: which datagrams are lost");
   try {
@@ -53,15 +55,10 @@ std::unique_ptr<Transport> MakeTransport(const ServiceOptions& options) {
   return transport;
 }
 
-int Fail(const std::string& service, const std::exception& error, int code) {
-  std::fprintf(stderr, "nbs-%s: %s\n", service.c_str(), error.what());
-  return code;
-}
-
 /// Runs until the end, and ends the process itself if the node does not come back from a long computation: the
 /// histories are whole at any time. The exit code after a signal is that of a process that died of it: whoever watches
 /// over the service sees that it has not finished.
-int RunToTheEnd(const std::string& service, ServiceRunner& runner) {
+int RunToTheEnd(const std::string& program, ServiceRunner& runner) {
   constexpr std::chrono::milliseconds kPatience{500};
   int code = 0;
   {
@@ -70,7 +67,8 @@ int RunToTheEnd(const std::string& service, ServiceRunner& runner) {
       runner.Run();
       if (stop.number() != 0) code = 128 + stop.number();
     } catch (const std::exception& error) {
-      code = Fail(service, error, 2);
+      (void)ReportFailure(program, error);
+      code = 2;
     }
   }
   if (!runner.JoinFold(kPatience)) std::_Exit(code);
@@ -79,11 +77,16 @@ int RunToTheEnd(const std::string& service, ServiceRunner& runner) {
 
 }  // namespace
 
-int RunService(std::string_view service_name, int argc, char** argv, const NodeFactory& make_node) {
+int RunService(std::string_view service_name, int argc, char** argv, const NodeFactory& make_node,
+               const OfflineJob& offline) {
   const std::string service(service_name);
   ServiceOptions options;
-  if (const std::optional<int> code = ReadOptions(service, argc, argv, options)) return *code;
+  if (const std::optional<int> code = ReadOptions(service, argc, argv, offline != nullptr, options)) return *code;
   try {
+    if (options.offline) {
+      offline(options.run_folder);
+      return 0;
+    }
     const RunConfig config = ReadRunConfig(options.run_folder);
     const std::unique_ptr<Node> node = make_node(config);
     if (options.check) return 0;
@@ -92,13 +95,9 @@ int RunService(std::string_view service_name, int argc, char** argv, const NodeF
     ServiceRunner runner(
         {service, config.run_id, options.run_folder, paced, options.without, options.exit_when_finished}, *node,
         *transport);
-    return RunToTheEnd(service, runner);
-  } catch (const RunFailure& error) {
-    return Fail(service, error, 2);
-  } catch (const ConfigError& error) {
-    return Fail(service, error, 1);
+    return RunToTheEnd("nbs-" + service, runner);
   } catch (const std::exception& error) {
-    return Fail(service, error, 2);
+    return ReportFailure("nbs-" + service, error);
   }
 }
 

@@ -16,7 +16,7 @@ enum class Obstacles : uint8_t {
 struct DistanceFieldSettings {
   int cells_per_block = 2;      ///< Edge of a block of the field, cells; a block with one obstacle cell is an obstacle.
   double max_distance_m = 0.3;  ///< Larger distances are reported as this.
-  double free_max_probability = 0.3;  ///< A cell is known to be free up to this p.
+  double free_max_probability = kFreeProbability;
 };
 
 /// Distances to the nearest obstacle of a voxel grid: an exact Euclidean distance transform over blocks of cells, cut

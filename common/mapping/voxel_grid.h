@@ -11,6 +11,9 @@ namespace nbs {
 /// Smallest log-odds of an occupied cell: p >= 0.95 (section III-C), ceil(1024 ln(0.95 / 0.05)).
 inline constexpr int16_t kOccupiedLogOdds = 3016;
 
+/// A cell is known to be free up to this p.
+inline constexpr double kFreeProbability = 0.3;
+
 /// Entropies are integers in 1/65536 nat, so that a sum of them does not depend on order or threads.
 inline constexpr double kEntropyPerNat = 65536.0;
 

@@ -13,8 +13,6 @@ namespace nbs {
 /// MeshScan. Both come even if nothing was seen. Refused stripes give nothing.
 class MesherNode : public Node {
  public:
-  static constexpr int kStripesPerDelta = 25;
-
   explicit MesherNode(const RunConfig& config, const StreamingMesherSettings& settings = {})
       : mesher_(config.cell.profiler, settings) {}
 

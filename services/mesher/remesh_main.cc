@@ -2,12 +2,11 @@
 // stripes anew. RUN/registered/streams then has the moved stripes, one MeshDelta and one MeshScan.
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 
 #include "common/bus/offline.h"
 #include "common/bus/recorder.h"
 #include "common/config/run_config.h"
-#include "common/runtime/error.h"
+#include "common/runtime/report_failure.h"
 #include "services/mesher/remesh.h"
 
 namespace {
@@ -40,12 +39,8 @@ int main(int argc, char** argv) {
     if (!stripes.empty()) WriteRegistered(config, run, nbs::Remesh(config.cell.profiler, std::move(stripes)));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
-  } catch (const nbs::ConfigError& error) {
-    std::cerr << "nbs-remesh: " << error.what() << "\n";
-    return 1;
   } catch (const std::exception& error) {
-    std::cerr << "nbs-remesh: " << error.what() << "\n";
-    return 2;
+    return nbs::ReportFailure("nbs-remesh", error);
   }
   return 0;
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/planning/scan_path.h"
 #include "services/mesher/stripe_check.h"
 
 namespace nbs {
@@ -100,7 +101,7 @@ double CalcAlong(const Stripe& stripe, int32_t last_index) {
 std::vector<int32_t> FindLastIndices(std::span<const Stripe> stripes) {
   std::vector<int32_t> last;
   for (const Stripe& stripe : stripes) {
-    if (stripe.scan < 0 || stripe.scan >= 10'000)
+    if (stripe.scan < 0 || stripe.scan >= kMaxScans)
       throw std::invalid_argument("FindLastIndices: scan " + std::to_string(stripe.scan));
     const auto scan = static_cast<size_t>(stripe.scan);
     if (scan >= last.size()) last.resize(scan + 1, -1);

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "common/planning/scan_path.h"
 #include "services/mesher/stripe_check.h"
 
 namespace nbs {
 namespace {
 
-constexpr int32_t kLastScan = 0xffff;
+static_assert(kMaxScans - 1 <= std::numeric_limits<decltype(MeshVertex::last_scan)>::max());
 // A number further ahead is of no scan that anybody has begun, and would shut out all that follow.
 constexpr int32_t kMostScansSkipped = 16;
 
@@ -25,7 +27,7 @@ StreamingMesher::StreamingMesher(const Profiler& profiler, const StreamingMesher
 
 bool StreamingMesher::IsAcceptable(const Stripe& stripe) const {
   if (!IsMeasurable(profiler_, stripe)) return false;
-  if (stripe.scan < 0 || stripe.scan > kLastScan || stripe.index < 0) return false;
+  if (stripe.scan < 0 || stripe.scan >= kMaxScans || stripe.index < 0) return false;
   if (!scan_begun_) return true;
   if (stripe.scan != scan_.scan) return stripe.scan > scan_.scan && stripe.scan - scan_.scan <= kMostScansSkipped;
   return !scan_ended_ && stripe.index > last_index_;

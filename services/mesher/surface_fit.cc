@@ -55,7 +55,6 @@ struct Quadric {
 struct Pass {
   std::array<float, 15> m{};  // 1 x y xx xy yy xxx xxy xyy yyy xxxx xxxy xxyy xyyy yyyy
   Vector6 right_side = Vector6::Zero();
-  float squared_residual = 0.0f;
   float near_weight = 0.0f;
   int measurements = 0;
 
@@ -88,9 +87,9 @@ struct Pass {
 struct LanePass {
   std::array<Lanes, 15> m{};
   std::array<Lanes, 6> right_side{};
-  Lanes squared_residual{}, near_weight{}, measurements{};
+  Lanes near_weight{}, measurements{};
 
-  void Add(Lanes x, Lanes y, Lanes z, Lanes w, Lanes residual) {
+  void Add(Lanes x, Lanes y, Lanes z, Lanes w) {
     const Lanes wx = w * x, wy = w * y, wxx = wx * x, wxy = wx * y, wyy = wy * y;
     const Lanes xx = x * x, xy = x * y, yy = y * y, wz = w * z;
     m[0] += w;
@@ -114,14 +113,12 @@ struct LanePass {
     right_side[3] += wz * x;
     right_side[4] += wz * y;
     right_side[5] += wz;
-    squared_residual += w * residual * residual;
   }
 
   Pass CalcTotals() const {
     Pass pass;
     for (size_t i = 0; i < m.size(); ++i) pass.m[i] = CalcTotal(m[i]);
     for (size_t i = 0; i < right_side.size(); ++i) pass.right_side[static_cast<int>(i)] = CalcTotal(right_side[i]);
-    pass.squared_residual = CalcTotal(squared_residual);
     pass.near_weight = CalcTotal(near_weight);
     pass.measurements = static_cast<int>(CalcTotal(measurements));
     return pass;
@@ -164,7 +161,7 @@ Pass MakePass(std::span<const Sample> samples, const Eigen::Vector3f& anchor_W, 
     const Lanes cosine = s.cosine > 0.0f ? s.cosine : Lanes{};
     const Lanes w = cosine * s.weight * CalcKernel(squared_distance, inverse_squared_radius) *
                     CalcKernel(residual * residual, inverse_squared_tolerance);
-    pass.Add(x, y, z, w, residual);
+    pass.Add(x, y, z, w);
     pass.near_weight += squared_distance < 0.25f * radius * radius ? w : Lanes{};
     pass.measurements += w > 0.0f ? s.measurements : Lanes{};
   }
@@ -226,12 +223,8 @@ std::optional<SurfaceFit> FitSurface(std::span<const Sample> samples, const Eige
   }
   const float height = surface.q[5] / kMillimetre;
   if (!(std::abs(height) <= settings.height_tolerance_m)) return std::nullopt;
-  return SurfaceFit{anchor_W + surface.R_WL.col(2) * height,
-                    (surface.R_WL * surface.CalcNormal_L()).normalized(),
-                    std::sqrt(pass.squared_residual / pass.m[0]) / kMillimetre,
-                    pass.measurements,
-                    pass.near_weight / pass.m[0],
-                    kMillimetre * surface.CalcCurvature()};
+  return SurfaceFit{anchor_W + surface.R_WL.col(2) * height, (surface.R_WL * surface.CalcNormal_L()).normalized(),
+                    pass.measurements, pass.near_weight / pass.m[0], kMillimetre * surface.CalcCurvature()};
 }
 
 }  // namespace nbs

@@ -21,7 +21,6 @@ struct SurfaceFitSettings {
 struct SurfaceFit {
   Eigen::Vector3f p_W = Eigen::Vector3f::Zero();       ///< The anchor moved along the normal onto the surface, metres.
   Eigen::Vector3f normal_W = Eigen::Vector3f::Zero();  ///< Unit, towards the side that was seen.
-  float residual_m = 0.0f;                             ///< Root mean square of the samples' distances from it.
   int measurements = 0;                                ///< That carried it.
   float near_share = 0.0f;  ///< Share of the weight within R_n / 2: 0.58 in the middle and at the rim of a surface that
                             ///< is evenly measured, little at a point in the air beside one.

@@ -19,7 +19,6 @@ BoundarySurface::BoundarySurface(const MeshReplica& mesh) : mesh_(&mesh) {
     for (uint32_t v : t) {
       neighbour_start_[v + 1] += 2;
       box_W_.extend(Position(v));
-      newest_scan_ = std::max(newest_scan_, LastScan(v));
     }
   }
   for (size_t v = 1; v < neighbour_start_.size(); ++v) neighbour_start_[v] += neighbour_start_[v - 1];

@@ -25,8 +25,6 @@ class BoundarySurface {
   Eigen::Vector3d Position(uint32_t vertex) const { return positions_W_[vertex].cast<double>(); }
   Eigen::Vector3d Normal(uint32_t vertex) const { return mesh_->vertices()[vertex].normal_W.cast<double>(); }
   int LastScan(uint32_t vertex) const { return mesh_->vertices()[vertex].last_scan; }
-  /// Number of the newest scan that contributed to a vertex in use; 0 without vertices.
-  int newest_scan() const { return newest_scan_; }
   /// Vertices that share an edge with `vertex`; inner neighbours come twice.
   std::span<const uint32_t> Neighbours(uint32_t vertex) const;
 
@@ -46,7 +44,6 @@ class BoundarySurface {
   std::vector<BorderEdge> edges_;
   std::vector<BorderLine> lines_;
   Eigen::AlignedBox3d box_W_;
-  int newest_scan_ = 0;
   std::vector<uint32_t> neighbour_start_;
   std::vector<uint32_t> neighbours_;
 };

@@ -46,9 +46,6 @@ std::vector<uint8_t> FindNear(const GridShape& shape, const std::vector<uint16_t
   return near;
 }
 
-/// A cell is known to be free up to this p.
-constexpr double kFreeProbability = 0.3;
-
 /// The value of every log-odds, before it is asked where the cell lies.
 std::vector<uint16_t> MakeTable(GainRule rule) {
   const std::span<const uint16_t, 65536> entropy = EntropyTable();

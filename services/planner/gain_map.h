@@ -19,7 +19,7 @@ namespace nbs {
 /// Autonomous Robots 42, 2018, DOI 10.1007/s10514-017-9634-0); in a space without occupied cells it is kSum.
 ///
 /// kMean and kPerSecond weigh the gain of kSum, so their map is the same. For kUnknownCount a cell is free up to p =
-/// 0.3 (as for the distance field), occupied from 0.95, and unknown between.
+/// kFreeProbability, occupied from 0.95, and unknown between.
 class GainMap {
  public:
   /// Value of an occupied cell: beams end before it.

@@ -46,12 +46,6 @@ Eigen::Vector3d QuadraticPatch::CalcNormal_P(double x, double y) const {
   return Eigen::Vector3d(-slope_x, -slope_y, 1.0).normalized();
 }
 
-Eigen::Vector3d QuadraticPatch::CalcPoint_W(double x, double y) const {
-  return X_WP * Eigen::Vector3d(x, y, CalcHeight(x, y));
-}
-
-Eigen::Vector3d QuadraticPatch::CalcNormal_W(double x, double y) const { return X_WP.linear() * CalcNormal_P(x, y); }
-
 double QuadraticPatch::CalcCurvatureAlongX(double x, double y) const {
   const double slope = 2.0 * coefficients(0) * x + coefficients(1) * y + coefficients(3);
   return 2.0 * coefficients(0) / std::pow(1.0 + slope * slope, 1.5);

@@ -28,10 +28,6 @@ struct QuadraticPatch {
   double CalcHeight(double x, double y) const;
   /// Unit normal in P over (x, y); its z is positive.
   Eigen::Vector3d CalcNormal_P(double x, double y) const;
-  /// Point of the patch over (x, y), in W.
-  Eigen::Vector3d CalcPoint_W(double x, double y) const;
-  /// Unit normal over (x, y), in W.
-  Eigen::Vector3d CalcNormal_W(double x, double y) const;
   /// Curvature of the section along x where it passes (x, y), 1/m; positive where the surface bends towards +z.
   double CalcCurvatureAlongX(double x, double y) const;
 };

@@ -21,11 +21,11 @@ struct SurfaceElement {
 };
 
 struct SurfacePredictionSettings {
-  double block_m = 0.005;             ///< Edge of a block, rounded to whole voxels.
-  double depth_m = 0.012;             ///< So far behind a measured point is inside of the object.
-  double free_max_probability = 0.3;  ///< A voxel is known to be free up to this p.
-  int iterations = 40;                ///< Sweeps of the relaxation a round; the next round goes on where it ended.
-  double relaxation = 1.85;           ///< Over-relaxation, in (0, 2).
+  double block_m = 0.005;  ///< Edge of a block, rounded to whole voxels.
+  double depth_m = 0.012;  ///< So far behind a measured point is inside of the object.
+  double free_max_probability = kFreeProbability;
+  int iterations = 40;          ///< Sweeps of the relaxation a round; the next round goes on where it ended.
+  double relaxation = 1.85;     ///< Over-relaxation, in (0, 2).
   double look_weight = 1.0;     ///< Pull to free of a scan that looked through a block in vain; each neighbour has 1.
   int max_looks = 5;            ///< More scans than this pull no harder.
   double rim_width_m = 0.008;   ///< Of the strip of elements along the border of the mesh.

@@ -1,11 +1,10 @@
 // nbs-pictures: draws the mesh of a run as it was after some of its scans, from the histories in the run folder.
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <memory>
 
 #include "common/bus/offline.h"
-#include "common/runtime/error.h"
+#include "common/runtime/report_failure.h"
 #include "services/reporter/reporter_node.h"
 #include "services/reporter/snapshots.h"
 
@@ -41,11 +40,10 @@ int main(int argc, char** argv) {
         nullptr);
     nbs::RunOffline(reporter, run);
     snapshots.Finish();
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 1;
   } catch (const std::exception& error) {
-    std::cerr << "nbs-pictures: " << error.what() << "\n";
-    return 1;
+    return nbs::ReportFailure("nbs-pictures", error);
   }
   return 0;
 }

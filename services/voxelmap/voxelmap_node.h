@@ -14,8 +14,6 @@ namespace nbs {
 /// above its predecessor's in the same scan. A closing stripe is refused only if its scan is closed.
 class VoxelmapNode : public Node {
  public:
-  static constexpr int kStripesPerDelta = 25;
-
   explicit VoxelmapNode(const RunConfig& config, const InverseSensorModelSettings& settings = {});
 
   size_t NextInput() const override { return StreamOf<Stripe>(); }

@@ -24,8 +24,7 @@ MapClearance::MapClearance(const VoxelGrid& grid)
 
 const ObstaclePyramid& MapClearance::CellsOf(Obstacles obstacles) const {
   Cells& cells = obstacles == Obstacles::kOccupied ? occupied_ : unknown_;
-  std::call_once(cells.made,
-                 [&] { cells.pyramid.emplace(grid_, obstacles, DistanceFieldSettings().free_max_probability); });
+  std::call_once(cells.made, [&] { cells.pyramid.emplace(grid_, obstacles, kFreeProbability); });
   return *cells.pyramid;
 }
 

@@ -2,9 +2,9 @@
 
 #include "common/bus/lcm_transport.h"
 #include "common/bus/lossy_transport.h"
-#include "common/bus/memory_bus.h"
 #include "common/bus/window.h"
 #include "tests/common/bus/fake_nodes.h"
+#include "tests/common/bus/memory_bus.h"
 #include "tests/common/bus/test_service.h"
 
 namespace nbs {

@@ -31,6 +31,8 @@ std::vector<Eigen::Vector3d> Sample(const Pose& X_WP, const Vector6d& c, double 
 const QuadraticPatchSettings kPlain{.noise_m = 0.0};
 const Vector6d kQuadric = (Vector6d() << -8.0, 3.0, 5.0, 0.2, -0.1, 0.002).finished();
 
+Eigen::Vector3d CalcPoint_P(const QuadraticPatch& patch, double x, double y) { return {x, y, patch.CalcHeight(x, y)}; }
+
 TEST(QuadraticPatch, ExactQuadricIsRecovered) {
   const auto patch = FitQuadraticPatch(MakeFrame(), Sample(MakeFrame(), kQuadric, 0.04), kPlain);
   ASSERT_TRUE(patch);
@@ -45,7 +47,7 @@ TEST(QuadraticPatch, PointsOfAnExactQuadricLieOnIt) {
   ASSERT_TRUE(patch);
   for (const Eigen::Vector3d& p_W : points_W) {
     const Eigen::Vector3d p_P = MakeFrame().inverse() * p_W;
-    EXPECT_NEAR((patch->CalcPoint_W(p_P.x(), p_P.y()) - p_W).norm(), 0.0, 1e-9);
+    EXPECT_NEAR((CalcPoint_P(*patch, p_P.x(), p_P.y()) - p_P).norm(), 0.0, 1e-9);
   }
 }
 
@@ -54,12 +56,12 @@ TEST(QuadraticPatch, NormalIsPerpendicularToNumericTangents) {
   ASSERT_TRUE(patch);
   constexpr double kStep = 1e-6;
   for (double x : {-0.05, 0.0, 0.03}) {
-    const Eigen::Vector3d p = patch->CalcPoint_W(x, 0.01);
-    const Eigen::Vector3d n = patch->CalcNormal_W(x, 0.01);
+    const Eigen::Vector3d p = CalcPoint_P(*patch, x, 0.01);
+    const Eigen::Vector3d n = patch->CalcNormal_P(x, 0.01);
     EXPECT_NEAR(n.norm(), 1.0, 1e-12);
-    EXPECT_NEAR((patch->CalcPoint_W(x + kStep, 0.01) - p).normalized().dot(n), 0.0, 1e-4);
-    EXPECT_NEAR((patch->CalcPoint_W(x, 0.01 + kStep) - p).normalized().dot(n), 0.0, 1e-4);
-    EXPECT_GT(n.dot(MakeFrame().linear().col(2)), 0.0);
+    EXPECT_NEAR((CalcPoint_P(*patch, x + kStep, 0.01) - p).normalized().dot(n), 0.0, 1e-4);
+    EXPECT_NEAR((CalcPoint_P(*patch, x, 0.01 + kStep) - p).normalized().dot(n), 0.0, 1e-4);
+    EXPECT_GT(n.z(), 0.0);
   }
 }
 

@@ -298,5 +298,18 @@ TEST_P(MotionPlannerLaw, SameSeedGivesTheSameBytes) {
 
 INSTANTIATE_TEST_SUITE_P(RandomRequests, MotionPlannerLaw, testing::Range<uint64_t>(1, 41));
 
+TEST(MotionPlanner, MotionOfMorePointsThanAMessageHoldsIsNone) {
+  // The sensor turns on its way, 200 m off the flange, whose way is then cut into hundreds of pieces.
+  ScanPath path = MakeUpwardPath(0.0);
+  path.X_WS_end.linear() = Eigen::AngleAxisd(1.5, Eigen::Vector3d::UnitY()) * path.X_WS_end.linear();
+  RunConfig config = MakeFreeRun();
+  const BoxWorld nothing;
+  EXPECT_TRUE(MotionPlanner(config).Plan(nothing, path.X_WS_start, path, 1).found());
+  config.cell.X_FS.translation().z() = 200.0;
+  const MotionPlanner::Result result = MotionPlanner(config).Plan(nothing, path.X_WS_start, path, 1);
+  EXPECT_EQ(result.verdict, Verdict::kNoMotion);
+  EXPECT_FALSE(result.found());
+}
+
 }  // namespace
 }  // namespace nbs

@@ -1,4 +1,4 @@
-#include "common/bus/memory_bus.h"
+#include "tests/common/bus/memory_bus.h"
 
 #include <algorithm>
 
