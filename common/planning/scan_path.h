@@ -41,7 +41,7 @@ enum class Verdict : uint8_t {
   kNotTried = 8,             ///< Ranked below the chosen one, reachability not looked at. Stays on the stack.
   kDropped = 9,              ///< Boundary candidate dropped at the switch to holes.
   kJointLimit = 10,          ///< The arm would get there only beyond the limits of its joints: discarded.
-  kSpeed = 11,               ///< A joint would have to jump, or to turn faster than it can: discarded.
+  kSpeed = 11,               ///< A joint would have to jump, or to turn or gather speed faster than it can: discarded.
   kSelfCollision = 12,       ///< The arm would touch itself, the table or the floor: discarded.
 };
 inline constexpr int kVerdicts = 13;

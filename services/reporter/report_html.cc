@@ -43,7 +43,7 @@ const char* Explain(Verdict verdict) {
     case Verdict::kJointLimit:
       return "only beyond the limits of the arm's joints; discarded";
     case Verdict::kSpeed:
-      return "a joint would have to jump, or turn faster than it can; discarded";
+      return "a joint would have to jump, or to turn or gather speed faster than it can; discarded";
     case Verdict::kSelfCollision:
       return "the arm would touch itself, the table or the floor; discarded";
     case Verdict::kNoGain:

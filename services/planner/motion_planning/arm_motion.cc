@@ -40,7 +40,7 @@ std::string Explain(Verdict verdict) {
     case Verdict::kJointLimit:
       return "only beyond the limits of the joints would the arm reach it";
     case Verdict::kSpeed:
-      return "a joint would have to jump on it, or turn faster than it can";
+      return "a joint would have to jump on it, or to turn or gather speed faster than it can";
     case Verdict::kSelfCollision:
       return "the arm would touch itself, the table or the floor";
     case Verdict::kBlockedByUnknown:
