@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <vector>
 
 #include "sim/prepare/prepare.h"
 
@@ -8,8 +9,10 @@ int main(int argc, char** argv) {
   CLI::App app("Checks what a run is asked to do and makes its folder: run.yaml, streams/, logs/.", "nbs-prepare");
   CLI::Option* object = app.add_option("--object", request.object, "statue, or a mesh file: PLY, STL or OBJ in metres");
   object->capture_default_str();
-  app.add_option("--box", request.box_m, "X,Y,Z: a real object, which fits in a box of these sizes in metres")
+  std::vector<double> box_m;
+  app.add_option("--box", box_m, "X,Y,Z: a real object, which fits in a box of these sizes in metres")
       ->delimiter(',')
+      ->expected(3)
       ->excludes(object);
   app.add_option("--method", request.method, "BH/IG, B/IG, B, S/IG or S")->capture_default_str();
   app.add_option("--gain", request.gain,
@@ -31,6 +34,7 @@ int main(int argc, char** argv) {
       std::cout << nbs::ListMethods();
       return 0;
     }
+    if (!box_m.empty()) request.box_m = {box_m.at(0), box_m.at(1), box_m.at(2)};
     nbs::PrepareRun(request);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);

@@ -73,7 +73,7 @@ class Hardware(WholeRunTest):
         self.assert_refused("launch", "hardware", says="--box X,Y,Z")
 
     def test_a_box_that_is_none_is_refused(self):
-        self.assert_refused("launch", "hardware", "--box", "0.1,0.1", says="--box")
+        self.assert_refused("launch", "hardware", "--box", "0.1,0.1", says="--box: At least 3 required but received 2")
         self.assert_refused("launch", "hardware", "--box", "0.1,0.1,-0.1", says="must all be above 0")
         self.assert_refused("launch", "hardware", "--box", "0.1,0.1,0.1", "--object", "statue", says="--box")
 
